@@ -1,0 +1,79 @@
+#include "burnish/base/parallel.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <numeric>
+#include <random>
+#include <thread>
+
+namespace burnish {
+namespace {
+
+/// The chunks of [0, count) in the order in which they are to be taken.
+class Chunks {
+ public:
+  Chunks(std::size_t count, std::size_t grain) : count_(count), grain_(grain) {
+#ifdef BURNISH_SHUFFLE
+    grain_ = std::min<std::size_t>(grain_, 13);
+    order_.resize(size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    const char* seed = std::getenv("BURNISH_SHUFFLE_SEED");
+    std::mt19937 random(seed ? static_cast<unsigned>(std::strtoul(seed, nullptr, 10)) : 1u);
+    std::shuffle(order_.begin(), order_.end(), random);
+#endif
+  }
+  std::size_t size() const { return (count_ + grain_ - 1) / grain_; }
+  IndexRange operator[](std::size_t i) const {
+    const std::size_t chunk = order_.empty() ? i : order_[i];
+    return {chunk * grain_, std::min(count_, (chunk + 1) * grain_)};
+  }
+
+ private:
+  std::size_t count_, grain_;
+  std::vector<std::size_t> order_;  ///< empty: as they come
+};
+
+}  // namespace
+
+int thread_count(const Context& context) {
+  const int machine = std::max(1, tbb::this_task_arena::max_concurrency());
+  return context.threads > 0 ? context.threads : machine;
+}
+
+bool parallel_for(const Context& context, std::size_t count,
+                  const std::function<void(IndexRange)>& body, std::size_t grain) {
+  const Chunks chunks(count, std::max<std::size_t>(grain, 1));
+  const std::size_t total = chunks.size();
+  const auto caller = std::this_thread::get_id();
+  std::atomic<std::size_t> done{0};
+  std::atomic<bool> stopped{false};
+
+  const auto run_chunk = [&](std::size_t i) {
+    if (stopped.load(std::memory_order_relaxed) || context.cancelled()) {
+      stopped = true;
+      return;
+    }
+    body(chunks[i]);
+    const std::size_t now = ++done;
+    if (std::this_thread::get_id() == caller) {
+      context.progress(static_cast<double>(now) / static_cast<double>(total));
+    }
+  };
+
+  const int threads = total > 1 ? thread_count(context) : 1;
+  if (threads <= 1) {
+    for (std::size_t i = 0; i < total && !stopped; ++i) run_chunk(i);
+  } else {
+    tbb::task_arena arena(threads);
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, total, run_chunk); });
+  }
+  if (stopped || context.cancelled()) return false;
+  context.progress(1);
+  return true;
+}
+
+}  // namespace burnish

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "burnish/base/result.h"
+
+namespace burnish {
+
+/// What a number measures. Inside it is always in the SI unit (m, rad, s).
+enum class Quantity { number, length, angle, time };
+
+/// Reads "5mm", "0.3 m", "30deg", "1.5": a number without a unit is in the SI unit.
+/// Errors: invalid_argument with the text and the units that would do.
+Result<double> parse_quantity(std::string_view text, Quantity quantity);
+
+/// "m", "rad", "s"; empty for plain numbers.
+std::string_view unit_of(Quantity quantity);
+
+/// The shortest decimal that reads back as `value`.
+std::string shortest(double value);
+
+}  // namespace burnish

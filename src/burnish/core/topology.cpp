@@ -1,0 +1,122 @@
+#include "burnish/core/topology.h"
+
+#include <algorithm>
+
+#include "burnish/core/adjacency.h"
+#include "burnish/core/disjoint_sets.h"
+#include "burnish/core/edges.h"
+
+namespace burnish {
+namespace {
+
+/// Visits every pair of triangles that share an edge, at least along a spanning chain of each edge.
+DisjointSets joined_across_edges(const TriangleMesh& mesh) {
+  DisjointSets sets(mesh.triangles.size());
+  struct Side {
+    std::uint32_t low, high, triangle;
+  };
+  std::vector<Side> sides;
+  sides.reserve(mesh.triangles.size() * 3);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
+      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), t});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.low != b.low ? a.low < b.low : a.high < b.high;
+  });
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i].low == sides[i - 1].low && sides[i].high == sides[i - 1].high) {
+      sets.unite(sides[i].triangle, sides[i - 1].triangle);
+    }
+  }
+  return sets;
+}
+
+bool names_twice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+std::size_t count_duplicates(const TriangleMesh& mesh) {
+  std::vector<Triangle> sorted = mesh.triangles;
+  for (Triangle& t : sorted) std::sort(t.begin(), t.end());
+  std::sort(sorted.begin(), sorted.end());
+  return static_cast<std::size_t>(sorted.end() - std::unique(sorted.begin(), sorted.end()));
+}
+
+/// Whether the triangles around `v` hang together by edges at `v`.
+bool is_one_fan(const TriangleMesh& mesh, std::uint32_t v, std::span<const std::uint32_t> around) {
+  struct Spoke {
+    std::uint32_t end, triangle;
+  };
+  std::vector<Spoke> spokes;
+  for (std::uint32_t i = 0; i < around.size(); ++i) {
+    for (const std::uint32_t w : mesh.triangles[around[i]]) {
+      if (w != v) spokes.push_back({w, i});
+    }
+  }
+  std::sort(spokes.begin(), spokes.end(), [](const Spoke& a, const Spoke& b) { return a.end < b.end; });
+  DisjointSets fans(around.size());
+  std::size_t count = around.size();
+  for (std::size_t i = 1; i < spokes.size(); ++i) {
+    if (spokes[i].end == spokes[i - 1].end) count -= fans.unite(spokes[i].triangle, spokes[i - 1].triangle);
+  }
+  return count <= 1;
+}
+
+std::size_t count_boundary_loops(const TriangleMesh& mesh, const std::vector<Edge>& all) {
+  DisjointSets chains(mesh.positions.size());
+  std::size_t loops = 0;
+  std::vector<bool> on_boundary(mesh.positions.size(), false);
+  for (const Edge& edge : all) {
+    if (!edge.boundary()) continue;
+    for (const std::uint32_t v : edge.vertices) {
+      loops += !on_boundary[v];
+      on_boundary[v] = true;
+    }
+    loops -= chains.unite(edge.vertices[0], edge.vertices[1]);
+  }
+  return loops;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> triangle_components(const TriangleMesh& mesh) {
+  DisjointSets sets = joined_across_edges(mesh);
+  std::vector<std::uint32_t> number(mesh.triangles.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t t = 0; t < number.size(); ++t) {
+    const std::uint32_t first = sets.find(t);
+    number[t] = first == t ? count++ : number[first];
+  }
+  return number;
+}
+
+Topology topology(const TriangleMesh& mesh) {
+  Topology result;
+  const std::vector<Edge> all = edges(mesh);
+  result.edges = all.size();
+  for (const Edge& edge : all) {
+    result.boundary_edges += edge.boundary();
+    result.non_manifold_edges += !edge.manifold();
+    result.flipped_edges += edge.flipped();
+  }
+  result.boundary_loops = count_boundary_loops(mesh, all);
+  for (const Triangle& t : mesh.triangles) result.degenerate_triangles += names_twice(t);
+  result.duplicate_triangles = count_duplicates(mesh);
+
+  const Adjacency around = triangles_of_vertices(mesh);
+  std::size_t used = 0;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    used += !around.row(v).empty();
+    result.non_manifold_vertices += !is_one_fan(mesh, v, around.row(v));
+  }
+  result.unused_vertices = mesh.positions.size() - used;
+  result.euler_number = static_cast<std::int64_t>(used) - static_cast<std::int64_t>(all.size()) +
+                        static_cast<std::int64_t>(mesh.triangles.size());
+  for (const std::uint32_t c : triangle_components(mesh)) {
+    result.components = std::max<std::size_t>(result.components, c + 1);
+  }
+  return result;
+}
+
+}  // namespace burnish

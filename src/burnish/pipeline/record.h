@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burnish/base/facts.h"
+#include "burnish/base/schema.h"
+#include "burnish/core/triangle_mesh.h"
+
+namespace burnish {
+
+/// One step of a run: "merge" by "cells" with every parameter as it was used.
+struct Step {
+  std::string verb;
+  std::string method;
+  Settings settings;
+  Facts facts;
+  double seconds = 0;
+};
+
+/// The mesh at one moment of the run: "original", "phase 1", "phase 2", ...
+struct Phase {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+/// What was done, to what, with which result: what a report is made from.
+struct Record {
+  std::string title;                  ///< "Reconstruction of teapot-scan"
+  std::string command;                ///< as it was typed
+  std::vector<std::string> inputs;
+  std::vector<Step> steps;
+  std::vector<Phase> phases;
+  std::vector<std::pair<std::string, Facts>> comparisons;  ///< against a true surface, by phase name
+  std::vector<std::string> notes;     ///< what a reader of files or a step wants to be known
+  std::vector<std::pair<std::string, std::string>> versions;  ///< burnish, compiler, libraries
+};
+
+}  // namespace burnish
