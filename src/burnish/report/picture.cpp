@@ -147,8 +147,9 @@ struct Painter::Scene {
       if (squared_norm(sum) > 0) normal = normalized(sum);
     }
     const Light color = back ? linear(options.back) : surface_color(options, sample);
-    Light light = color * brightness(camera.T_camera_scene.rotate(normal),
-                                     camera.T_camera_scene.rotate(sample.ray));
+    const Light lit =
+        lighting(camera.T_camera_scene.rotate(normal), camera.T_camera_scene.rotate(sample.ray));
+    Light light{color.x * lit.x, color.y * lit.y, color.z * lit.z};
     if (options.edges) {
       std::array<Vec3d, 3> corners;
       for (std::size_t k = 0; k < 3; ++k) {

@@ -18,7 +18,7 @@ struct PictureOptions {
   bool edges = false;                       ///< draw the triangles' edges
   bool vertex_colors = false;               ///< where the mesh has them, instead of `surface`
   bool origin = true;                       ///< tint what was interpolated or invented
-  Color surface{217, 211, 200, 255};
+  Color surface{228, 223, 214, 255};
   Color back{178, 74, 118, 255};  ///< triangles seen from their inner side
   Color interpolated{150, 186, 205, 255};
   Color invented{226, 160, 52, 255};

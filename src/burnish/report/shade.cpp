@@ -39,13 +39,14 @@ Color srgb(const Light& light) {
   return {encode(light.x), encode(light.y), encode(light.z), 255};
 }
 
-double brightness(const Vec3d& normal, const Vec3d& ray) {
-  static const Vec3d kKey = normalized(Vec3d{-0.62, -0.62, -0.48});
-  static const Vec3d kFill = normalized(Vec3d{0.85, -0.15, -0.5});
+Light lighting(const Vec3d& normal, const Vec3d& ray) {
+  static const Vec3d kKey = normalized(Vec3d{-0.60, -0.66, -0.46});
+  static const Vec3d kFill = normalized(Vec3d{0.90, 0.10, -0.42});
+  constexpr Light kWarm{1.0, 0.965, 0.915}, kCool{0.86, 0.93, 1.0};
   const Vec3d n = dot(normal, ray) > 0 ? -normal : normal;
   const double key = std::max(0.0, dot(n, kKey)), fill = std::max(0.0, dot(n, kFill));
-  const double sky = 0.5 - 0.5 * n.y, camera = -dot(n, ray);
-  return 0.06 + 0.10 * sky + 0.58 * key + 0.16 * fill + 0.18 * camera;
+  const double sky = 0.5 - 0.5 * n.y, camera = std::max(0.0, -dot(n, ray));
+  return (0.78 * key + 0.10 * camera) * kWarm + (0.03 + 0.15 * sky + 0.15 * fill) * kCool;
 }
 
 Color color_of(double t) {

@@ -19,11 +19,11 @@ inline Light mix(const Light& a, const Light& b, double share_of_b) {
   return a * (1 - share_of_b) + b * share_of_b;
 }
 
-/// How bright a matt surface is whose unit normal is `normal`, seen along `ray` (unit length), both
-/// in camera axes (x right, y down, z forward): a soft key light from the upper left, a weaker fill
-/// light from the right, the sky and a little light from the camera itself, so that no side is
-/// black. The normal is taken towards the camera. About 0.2 to 1.
-double brightness(const Vec3d& normal, const Vec3d& ray);
+/// The light that a matt white surface sends back whose unit normal is `normal`, seen along `ray`
+/// (unit length), both in camera axes (x right, y down, z forward): a warm key light from the upper
+/// left, a cool weak one from the right, the sky and a little light from the camera itself, so that
+/// no side is black. The normal is taken towards the camera.
+Light lighting(const Vec3d& normal, const Vec3d& ray);
 
 /// A colour for t in [0, 1] from dark blue to pale yellow; equal steps of t look equal because
 /// OKLab lightness rises in proportion to t, also without colour vision. Not finite: mid grey.
