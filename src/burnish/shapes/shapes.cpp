@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "burnish/shapes/revolution.h"
+#include "burnish/shapes/teapot.h"
 
 namespace burnish {
 namespace {
@@ -74,6 +75,11 @@ void subdivide(TriangleMesh& mesh, std::vector<Vec3d>& directions) {
   mesh.triangles = std::move(finer);
 }
 
+TriangleMesh scaled(TriangleMesh mesh, double factor) {
+  for (Vec3f& p : mesh.positions) p = Vec3f(Vec3d(p) * factor);
+  return mesh;
+}
+
 TriangleMesh on_table(TriangleMesh mesh) {
   float lowest = 0;
   for (const Vec3f& p : mesh.positions) lowest = std::min(lowest, p.z);
@@ -87,7 +93,8 @@ struct NamedShape {
   Maker make;
 };
 
-constexpr std::array<NamedShape, 4> kShapes{{
+constexpr std::array<NamedShape, 5> kShapes{{
+    {"teapot", [] { return scaled(make_teapot(32), 0.05); }},
     {"sphere", [] { return on_table(make_sphere(0.15, 6)); }},
     {"box",
      [] {
