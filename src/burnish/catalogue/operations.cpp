@@ -1,5 +1,6 @@
 #include "burnish/catalogue/operations.h"
 
+#include "burnish/repair/small_components.h"
 #include "burnish/smoothing/one_ring_mean.h"
 
 // The list of everything that burnish can do. A new method is one line here.
@@ -17,6 +18,14 @@ std::span<const MergeOperation> merge_operations() {
 
 std::span<const TriangulateOperation> triangulate_operations() {
   static const std::vector<TriangulateOperation> list{};
+  return list;
+}
+
+std::span<const RepairOperation> repair_operations() {
+  static const std::vector<RepairOperation> list{
+      edit_operation("small_components", remove_small_components,
+                     "Components too small to be anything but specks of noise go.", ""),
+  };
   return list;
 }
 

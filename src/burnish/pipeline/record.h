@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "burnish/base/facts.h"
 #include "burnish/base/schema.h"
+#include "burnish/core/depth_frame.h"
 #include "burnish/core/triangle_mesh.h"
 
 namespace burnish {
@@ -17,12 +19,20 @@ struct Step {
   Settings settings;
   Facts facts;
   double seconds = 0;
+  std::vector<FieldInfo> fields;  ///< of the settings, where known: their units and explanations
 };
 
 /// The mesh at one moment of the run: "original", "phase 1", "phase 2", ...
 struct Phase {
   std::string name;
   TriangleMesh mesh;
+  std::vector<float> deviation;  ///< per vertex the distance to a true surface, m; empty: no truth
+};
+
+/// Where a depth camera stood, in the world.
+struct Viewpoint {
+  Camera camera;
+  RigidTransform T_world_camera;
 };
 
 /// What was done, to what, with which result: what a report is made from.
@@ -33,6 +43,7 @@ struct Record {
   std::vector<Step> steps;
   std::vector<Phase> phases;
   std::vector<std::pair<std::string, Facts>> comparisons;  ///< against a true surface, by phase name
+  std::optional<Viewpoint> viewpoint; ///< of the first frame: pictures show the surface from there
   std::vector<std::string> notes;     ///< what a reader of files or a step wants to be known
   std::vector<std::pair<std::string, std::string>> versions;  ///< burnish, compiler, libraries
 };

@@ -1,0 +1,107 @@
+#include "burnish/points/unproject.h"
+
+#include <cmath>
+#include <limits>
+
+#include "burnish/base/parallel.h"
+#include "burnish/points/organized_normals.h"
+
+namespace burnish {
+namespace {
+
+/// The depths that count as measured.
+struct DepthRange {
+  double low, high;
+
+  DepthRange(const DepthNoise& noise, const UnprojectParams& params)
+      : low(params.min_depth > 0 ? params.min_depth : noise.min_depth),
+        high(params.max_depth > 0  ? params.max_depth
+             : noise.max_depth > 0 ? noise.max_depth
+                                   : std::numeric_limits<double>::infinity()) {}
+  bool contains(double z) const { return z > 0 && z >= low && z <= high; }
+};
+
+/// The grid as the camera itself saw it, without a detour over rounded world coordinates.
+ProjectiveGrid camera_grid(const DepthFrame& frame, const DepthRange& range) {
+  const Camera& camera = frame.camera;
+  ProjectiveGrid grid{{camera.width, camera.height}, frame.T_world_camera, {}};
+  grid.pixels.resize(frame.depth.size());
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
+    const double z = frame.depth[i];
+    if (!range.contains(z)) continue;
+    const double column = static_cast<double>(i % camera.width);
+    const double row = static_cast<double>(i / camera.width);
+    grid.pixels[i] = {(column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1 / z};
+  }
+  return grid;
+}
+
+/// One standard deviation across the surface; see the header.
+double sigma_across(const DepthFrame& frame, double z, double theta) {
+  const double axial = frame.noise.axial(z, theta) * std::cos(theta);
+  const double lateral = frame.noise.lateral(z, theta, frame.camera.fx) * std::sin(theta);
+  return std::hypot(axial, lateral);
+}
+
+/// The angle between the ray to `point` and the line of `normal`; 0 where there is no normal.
+double incidence(const Vec3d& point, const Vec3d& eye, const Vec3f& normal) {
+  const Vec3d n(normal), ray = normalized(point - eye);
+  return squared_norm(n) > 0 ? std::acos(std::min(1.0, std::abs(dot(ray, n)))) : 0;
+}
+
+}  // namespace
+
+const Schema<UnprojectParams>& UnprojectParams::schema() {
+  using P = UnprojectParams;
+  static const auto schema =
+      Schema<P>()
+          .real("min_depth", &P::min_depth, at_least(0), "nearer is no measurement; 0: the sensor's",
+                Quantity::length)
+          .real("max_depth", &P::max_depth, at_least(0), "farther is no measurement; 0: the sensor's",
+                Quantity::length)
+          .integer("window", &P::window, between(0, 50),
+                   "radius of the normals' window in pixels; 0: sized by the noise");
+  return schema;
+}
+
+Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& params,
+                             const Context& context) {
+  if (auto valid = UnprojectParams::schema().check(params); !valid) return valid.error();
+  if (auto sound = check(frame); !sound) return sound.error();
+
+  const DepthRange range(frame.noise, params);
+  const ProjectiveGrid grid = camera_grid(frame, range);
+  const std::size_t count = frame.depth.size();
+  const Vec3d eye = frame.T_world_camera.translation;
+  constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+
+  PointCloud cloud{.grid = grid.size, .viewpoint = eye};
+  cloud.positions.assign(count, {kMissing, kMissing, kMissing});
+  cloud.attributes.sigma.assign(count, 0);
+  cloud.attributes.observations.assign(count, 0);
+  cloud.attributes.origin.assign(count, Origin::seen);
+
+  std::vector<float> noise(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (grid.pixels[i].w > 0) noise[i] = static_cast<float>(frame.noise.axial(frame.depth[i], 0));
+  }
+  if (!organized_normals(grid, noise, params.window, context.part(0, 0.6), cloud.attributes.normals)) {
+    return cancelled();
+  }
+  const bool complete = parallel_for(context.part(0.6, 1), count, [&](IndexRange part) {
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+      const ProjectiveGrid::Pixel& pixel = grid.pixels[i];
+      if (!(pixel.w > 0)) continue;
+      const double z = frame.depth[i];
+      const Vec3d point = frame.T_world_camera({pixel.u * z, pixel.v * z, z});
+      const double theta = incidence(point, eye, cloud.attributes.normals[i]);
+      cloud.positions[i] = Vec3f(point);
+      cloud.attributes.sigma[i] = static_cast<float>(sigma_across(frame, z, theta));
+      cloud.attributes.observations[i] = 1;
+    }
+  });
+  if (!complete) return cancelled();
+  return cloud;
+}
+
+}  // namespace burnish

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "burnish/base/context.h"
+#include "burnish/base/schema.h"
+#include "burnish/core/depth_frame.h"
+#include "burnish/core/point_cloud.h"
+
+namespace burnish {
+
+struct UnprojectParams {
+  double min_depth = 0;  ///< m, along the camera's z; 0: the sensor's own limit
+  double max_depth = 0;  ///< m; 0: the sensor's own limit
+  int window = 0;        ///< radius of the normals' window, pixels; 0: sized by the noise
+
+  static const Schema<UnprojectParams>& schema();
+};
+
+/// The points that a depth camera saw, as an organized cloud in world coordinates: pixel (u, v) of
+/// depth z is T_world_camera ((u - cx) z / fx, (v - cy) z / fy, z), computed in double, kept in
+/// float. Pixels without depth or out of range are NaN. Attributes of every pixel:
+///   normals       as estimate_normals gives them, towards the camera; 0 where unknown or missing
+///   sigma         one standard deviation of the position across the surface, m; 0 where missing
+///   observations  1, and 0 where missing
+///   origin        seen
+/// The sensor errs by axial(z, theta) along the ray and by lateral(z, theta) across it, theta being
+/// the angle between ray and normal. An error within the surface leaves the surface where it is, so
+/// the one number kept is the error's part along the normal:
+///   sigma^2 = axial^2 cos^2(theta) + lateral^2 sin^2(theta),   theta = 0 where there is no normal.
+/// O(#pixels). Errors: invalid_argument, bad_geometry, cancelled.
+Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& params = {},
+                             const Context& context = {});
+
+}  // namespace burnish
