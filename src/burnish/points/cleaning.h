@@ -6,7 +6,7 @@ namespace burnish {
 
 /// What an operation that takes points out of a cloud did.
 struct CleaningReport {
-  std::size_t points_before = 0;   ///< with a position (missing pixels do not count)
+  std::size_t points_before = 0;  ///< with a position (missing pixels do not count)
   std::size_t points_removed = 0;
 
   Facts facts() const {

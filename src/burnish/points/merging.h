@@ -8,9 +8,9 @@ namespace burnish {
 /// What a merging of clouds did.
 struct MergingReport {
   std::size_t clouds = 0;
-  std::size_t points_in = 0;    ///< with a position
+  std::size_t points_in = 0;  ///< with a position
   std::size_t points_out = 0;
-  double spacing = 0;           ///< aimed at between neighbouring points, m
+  double spacing = 0;  ///< aimed at between neighbouring points, m
 
   Facts facts() const {
     return {{"clouds", static_cast<double>(clouds), ""},

@@ -12,7 +12,7 @@ using Pixel = ProjectiveGrid::Pixel;
 
 constexpr std::size_t kRowsAtOnce = 8;
 constexpr int kLargestRadius = 8;
-constexpr double kSteepest = 3.73;      // tan 75 degrees
+constexpr double kSteepest = 3.73;         // tan 75 degrees
 constexpr double kSlopeDeviation = 0.052;  // 3 degrees
 
 /// Sums over a set of pixels from which the plane through them follows.
@@ -34,7 +34,8 @@ struct Moments {
   }
 };
 
-/// The normal towards the viewpoint of the plane w = a u + b v + c through the pixels, in view axes.
+/// The normal towards the viewpoint of the plane w = a u + b v + c through the pixels, in view
+/// axes.
 Vec3d plane_normal(const Moments& m) {
   if (m.n < 2.5) return {};
   const double u = m.u / m.n, v = m.v / m.n, w = m.w / m.n;
@@ -112,10 +113,13 @@ struct Windows {
 
 }  // namespace
 
-Vec3d viewpoint_or_origin(const PointCloud& cloud) { return cloud.viewpoint.value_or(Vec3d{}); }
+Vec3d viewpoint_or_origin(const PointCloud& cloud) {
+  return cloud.viewpoint.value_or(Vec3d{});
+}
 
 ProjectiveGrid project_grid(const PointCloud& cloud) {
-  ProjectiveGrid grid{.size = *cloud.grid};
+  ProjectiveGrid grid;
+  grid.size = *cloud.grid;
   const Vec3d eye = viewpoint_or_origin(cloud);
   Vec3d forward;
   for (const Vec3f& p : cloud.positions) {
@@ -160,9 +164,10 @@ std::vector<float> depth_noise(const ProjectiveGrid& grid, std::span<const float
   }
   std::vector<float> noise(grid.pixels.size());
   if (bends.empty()) return noise;
-  // The 68 % quantile is one standard deviation of a normal distribution and, other than the median,
-  // not 0 where most depths are quantised to the same step. A second difference of white noise has
-  // six times its variance; neighbouring pixels of real cameras share about half of theirs.
+  // The 68 % quantile is one standard deviation of a normal distribution and, other than the
+  // median, not 0 where most depths are quantised to the same step. A second difference of white
+  // noise has six times its variance; neighbouring pixels of real cameras share about half of
+  // theirs.
   const auto place = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() * 68 / 100);
   std::nth_element(bends.begin(), place, bends.end());
   const double noise_w = *place / std::sqrt(6 * 0.5);

@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "burnish/base/context.h"
+#include "burnish/base/rigid.h"
 #include "burnish/core/point_cloud.h"
 
 namespace burnish {
 
 /// A cloud seen from one point, in projective coordinates: u = x/z, v = y/z, w = 1/z about an axis
-/// through the middle of the view. Planes stay planes (w = a u + b v + c), the grid stays a grid, and
-/// the noise of depth cameras lies in w alone.
+/// through the middle of the view. Planes stay planes (w = a u + b v + c), the grid stays a grid,
+/// and the noise of depth cameras lies in w alone.
 struct ProjectiveGrid {
   struct Pixel {
     double u = 0, v = 0;
@@ -41,10 +42,10 @@ bool same_surface(const ProjectiveGrid::Pixel& a, const ProjectiveGrid::Pixel& b
 
 /// Normals of unit length towards the viewpoint, 0 where fewer than three pixels or only a line of
 /// them support one. Least squares of w over (u, v) in a window that grows from its pixel along the
-/// column and from there along the rows, and ends at depth jumps (the cross of Zhang, Lu and Lafruit
-/// 2009): rows by prefix sums, so that the cost hardly depends on the window. `radius` 0: the
-/// smallest that brings the standard deviation of the slope to 3 degrees for white noise, 1 to 8.
-/// Returns false where cancelled. O(#P * radius).
+/// column and from there along the rows, and ends at depth jumps (the cross of Zhang, Lu and
+/// Lafruit 2009): rows by prefix sums, so that the cost hardly depends on the window. `radius` 0:
+/// the smallest that brings the standard deviation of the slope to 3 degrees for white noise, 1
+/// to 8. Returns false where cancelled. O(#P * radius).
 [[nodiscard]] bool organized_normals(const ProjectiveGrid& grid, std::span<const float> noise,
                                      int radius, const Context& context,
                                      std::vector<Vec3f>& normals);

@@ -55,10 +55,10 @@ const Schema<UnprojectParams>& UnprojectParams::schema() {
   using P = UnprojectParams;
   static const auto schema =
       Schema<P>()
-          .real("min_depth", &P::min_depth, at_least(0), "nearer is no measurement; 0: the sensor's",
-                Quantity::length)
-          .real("max_depth", &P::max_depth, at_least(0), "farther is no measurement; 0: the sensor's",
-                Quantity::length)
+          .real("min_depth", &P::min_depth, at_least(0),
+                "nearer is no measurement; 0: the sensor's", Quantity::length)
+          .real("max_depth", &P::max_depth, at_least(0),
+                "farther is no measurement; 0: the sensor's", Quantity::length)
           .integer("window", &P::window, between(0, 50),
                    "radius of the normals' window in pixels; 0: sized by the noise");
   return schema;
@@ -75,7 +75,9 @@ Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& par
   const Vec3d eye = frame.T_world_camera.translation;
   constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
-  PointCloud cloud{.grid = grid.size, .viewpoint = eye};
+  PointCloud cloud;
+  cloud.grid = grid.size;
+  cloud.viewpoint = eye;
   cloud.positions.assign(count, {kMissing, kMissing, kMissing});
   cloud.attributes.sigma.assign(count, 0);
   cloud.attributes.observations.assign(count, 0);
@@ -85,7 +87,8 @@ Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& par
   for (std::size_t i = 0; i < count; ++i) {
     if (grid.pixels[i].w > 0) noise[i] = static_cast<float>(frame.noise.axial(frame.depth[i], 0));
   }
-  if (!organized_normals(grid, noise, params.window, context.part(0, 0.6), cloud.attributes.normals)) {
+  if (!organized_normals(grid, noise, params.window, context.part(0, 0.6),
+                         cloud.attributes.normals)) {
     return cancelled();
   }
   const bool complete = parallel_for(context.part(0.6, 1), count, [&](IndexRange part) {

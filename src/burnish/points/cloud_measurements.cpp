@@ -1,0 +1,130 @@
+#include "burnish/points/cloud_measurements.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "burnish/points/organized_normals.h"
+#include "burnish/spatial/neighbour_grid.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::size_t kSampled = 61;  // every so-manieth point stands for the rest in a median
+constexpr double kLeastSigma = 1e-3;  // of the spacing; weights stay finite where sigma is 0
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The distance from every kSampled-th point to its nearest neighbour that is not in its place.
+void add_neighbour_distances(const PointCloud& cloud, std::vector<double>& distances) {
+  const NeighbourGrid grid(cloud.positions);
+  std::vector<Neighbour> found;
+  for (std::size_t i = 0; i < cloud.positions.size(); i += kSampled) {
+    grid.nearest(cloud.positions[i], 4, found);
+    for (const Neighbour& neighbour : found) {
+      if (neighbour.squared_distance > 0) {
+        distances.push_back(std::sqrt(neighbour.squared_distance));
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+CloudMeasurements::CloudMeasurements(std::span<const PointCloud> clouds) : clouds_(clouds) {
+  for (const PointCloud& cloud : clouds) {
+    View view{cloud.frame.origin - clouds[0].frame.origin, viewpoint_or_origin(cloud)};
+    if (cloud.grid) view.pitch = pixel_pitch(project_grid(cloud));
+    views_.push_back(view);
+    has_sigma_ = has_sigma_ && (cloud.positions.empty() || !cloud.attributes.sigma.empty());
+  }
+}
+
+double CloudMeasurements::typical_footprint() const {
+  std::vector<double> footprints;
+  for (std::size_t list = 0; list < clouds_.size(); ++list) {
+    const PointCloud& cloud = clouds_[list];
+    if (!cloud.grid) {
+      add_neighbour_distances(cloud, footprints);
+      continue;
+    }
+    for (std::size_t i = 0; i < cloud.positions.size(); i += kSampled) {
+      if (!is_finite(cloud.positions[i])) continue;
+      footprints.push_back(views_[list].pitch * norm(Vec3d(cloud.positions[i]) - views_[list].eye));
+    }
+  }
+  return median(footprints);
+}
+
+double CloudMeasurements::typical_sigma() const {
+  if (!has_sigma_) return 0;
+  std::vector<double> sigmas;
+  for (const PointCloud& cloud : clouds_) {
+    for (std::size_t i = 0; i < cloud.positions.size(); i += kSampled) {
+      if (is_finite(cloud.positions[i])) sigmas.push_back(cloud.attributes.sigma[i]);
+    }
+  }
+  return median(sigmas);
+}
+
+std::size_t CloudMeasurements::points() const {
+  std::size_t count = 0;
+  for (const PointCloud& cloud : clouds_) {
+    count += static_cast<std::size_t>(
+        std::count_if(cloud.positions.begin(), cloud.positions.end(), is_finite<float>));
+  }
+  return count;
+}
+
+double CloudMeasurements::deviation(double sigma) const {
+  return std::hypot(std::max(sigma, kLeastSigma * weighing_.spacing), weighing_.registration);
+}
+
+Measurement CloudMeasurements::typical() const {
+  const double sigma = std::max(typical_sigma(), kLeastSigma * weighing_.spacing);
+  Measurement m;
+  m.weight = 1 / (deviation(sigma) * deviation(sigma));
+  m.information = 1 / (sigma * sigma);
+  return m;
+}
+
+bool CloudMeasurements::counts(std::size_t list, std::size_t i) const {
+  const PointCloud& cloud = clouds_[list];
+  if (!is_finite(cloud.positions[i]) || cloud.attributes.normals[i] == Vec3f{}) return false;
+  if (!cloud.grid) return i % (step_ * step_) == 0;
+  return i % cloud.grid->width % step_ == 0 && i / cloud.grid->width % step_ == 0;
+}
+
+double CloudMeasurements::sigma(std::size_t list, std::size_t i) const {
+  const double given = has_sigma_ ? double{clouds_[list].attributes.sigma[i]} : 0.0;
+  return std::max(given, kLeastSigma * weighing_.spacing);
+}
+
+Measurement CloudMeasurements::read(std::size_t list, std::size_t i) const {
+  const PointCloud& cloud = clouds_[list];
+  const View& view = views_[list];
+  const Vec3d p(cloud.positions[i]);
+  Measurement m;
+  m.position = p + view.shift;
+  m.normal = cloud.attributes.normals[i];
+  if (!cloud.attributes.observations.empty()) m.count = cloud.attributes.observations[i];
+  const double s = sigma(list, i), d = deviation(s);
+  m.weight = 1 / (d * d);
+  m.information = 1 / (s * s);
+  if (view.pitch > 0) {
+    const Vec3d ray = p - view.eye;
+    const double footprint = view.pitch * norm(ray);
+    const double facing = std::abs(dot(normalized(ray), Vec3d(m.normal)));
+    const double in_patch =
+        weighing_.spacing * weighing_.spacing * facing / (footprint * footprint);
+    m.information /= 1 + std::max(0.0, in_patch - 1) * weighing_.correlation;
+  }
+  return m;
+}
+
+}  // namespace burnish
