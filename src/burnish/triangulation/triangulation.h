@@ -7,10 +7,10 @@ namespace burnish {
 
 /// What a triangulation did.
 struct TriangulationReport {
-  std::size_t points = 0;             ///< with a position
-  std::size_t unused_points = 0;      ///< that no triangle uses; they are left out of the mesh
+  std::size_t points = 0;         ///< with a position
+  std::size_t unused_points = 0;  ///< that no triangle uses; they are left out of the mesh
   std::size_t triangles = 0;
-  std::size_t invented_triangles = 0; ///< that close a hole between measured points
+  std::size_t invented_triangles = 0;  ///< that close a hole between measured points
 
   Facts facts() const {
     return {{"points", static_cast<double>(points), ""},

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "burnish/base/context.h"
+#include "burnish/base/schema.h"
+#include "burnish/core/point_cloud.h"
+#include "burnish/triangulation/triangulation.h"
+
+namespace burnish {
+
+struct GlobalParams {
+  int neighbours = 16;
+  int most_neighbours = 96;
+  double sheet_angle = 1.5707963267948966;  // 90 degrees
+  double max_gap = 2.5;
+  int hole_edges = 12;
+
+  static const Schema<GlobalParams>& schema();
+};
+
+/// One surface through all the points, from fans that agree, after the global triangulation of
+/// Linsen and Prautzsch 2001 (as told there; details are our own). Every point has a fan: its star
+/// in the Delaunay triangulation of its nearest neighbours in its tangent plane (local_fans.h).
+/// Triangles that the fans of all three corners hold are taken first, then those of two, then of
+/// one, well shaped ones first, each only where the surface stays an orientable manifold; then
+/// boundary loops of at most `hole_edges` edges are closed by the triangulation of best shape and
+/// counted as invented.
+///
+/// Normals are used where the cloud has them and are estimated otherwise; they tell two sheets
+/// apart that are nearer than the sampling. No triangle is larger than its surroundings' sampling:
+/// its circumscribed circle is at most `max_gap` times as wide as a corner's eighth neighbour is
+/// far.
+///
+/// The result: no edge with three triangles, no vertex with two fans, one orientation, along the
+/// normals. Points without a place in it and all but one of coincident points are left out;
+/// attributes are carried. The triangles do not depend on the order of the points as long as the
+/// normals do not. O(#P log #P); missing pixels of an organized cloud are skipped.
+/// Errors: invalid_argument, bad_geometry, cancelled.
+Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalParams& params = {},
+                                         const Context& context = {});
+
+}  // namespace burnish

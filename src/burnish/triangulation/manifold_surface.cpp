@@ -1,0 +1,160 @@
+#include "burnish/triangulation/manifold_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burnish {
+
+ManifoldSurface::ManifoldSurface(std::span<const Vec3f> positions, std::span<const Vec3f> normals)
+    : positions_(positions), normals_(normals), first_corner_(positions.size(), kNone) {
+  triangles_.reserve(2 * positions.size());
+  next_corner_.reserve(6 * positions.size());
+}
+
+template <class Visit>
+void ManifoldSurface::for_each_link_edge(std::uint32_t v, Visit visit) const {
+  for (std::uint32_t corner = first_corner_[v]; corner != kNone; corner = next_corner_[corner]) {
+    const Triangle& t = triangles_[corner / 3];
+    visit(LinkEdge{corner, t[(corner + 1) % 3], t[(corner + 2) % 3]});
+  }
+}
+
+double ManifoldSurface::turn(std::uint32_t v, std::uint32_t w1, std::uint32_t w2) const {
+  const Vec3d centre(positions_[v]);
+  return dot(Vec3d(normals_[v]),
+             cross(Vec3d(positions_[w1]) - centre, Vec3d(positions_[w2]) - centre));
+}
+
+/// The end of the link edge of v that begins at w.
+std::uint32_t ManifoldSurface::successor(std::uint32_t v, std::uint32_t w) const {
+  for (std::uint32_t corner = first_corner_[v]; corner != kNone; corner = next_corner_[corner]) {
+    const Triangle& t = triangles_[corner / 3];
+    if (t[(corner + 1) % 3] == w) return t[(corner + 2) % 3];
+  }
+  return kNone;
+}
+
+void ManifoldSurface::add(const Triangle& t) {
+  const auto number = static_cast<std::uint32_t>(triangles_.size());
+  triangles_.push_back(t);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    next_corner_.push_back(first_corner_[t[i]]);
+    first_corner_[t[i]] = 3 * number + i;
+  }
+}
+
+bool ManifoldSurface::add_if_manifold(const Triangle& t) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!fits(t[i], t[(i + 1) % 3], t[(i + 2) % 3])) return false;
+  }
+  add(t);
+  return true;
+}
+
+/// Whether the link of v may take the edge from `begin` to `end`.
+bool ManifoldSurface::fits(std::uint32_t v, std::uint32_t begin, std::uint32_t end) const {
+  if (!(turn(v, begin, end) > 0)) return false;
+  bool free = true;
+  std::size_t degree = 0;
+  // Sectors of less than half a turn overlap where one has a side of the other strictly inside, or
+  // where they begin or end alike.
+  for_each_link_edge(v, [&](const LinkEdge& link) {
+    ++degree;
+    free = free && link.begin != begin && link.end != end;
+    const auto inside = [&](std::uint32_t w, std::uint32_t from, std::uint32_t to) {
+      return w != from && w != to && turn(v, from, w) > 0 && turn(v, w, to) > 0;
+    };
+    free = free && !inside(link.begin, begin, end) && !inside(link.end, begin, end) &&
+           !inside(begin, link.begin, link.end) && !inside(end, link.begin, link.end);
+  });
+  if (!free) return false;
+  // The path that leaves `end` may come back to `begin` only as the whole link.
+  std::size_t length = 0;
+  for (std::uint32_t w = end; w != begin; ++length) {
+    w = successor(v, w);
+    if (w == kNone) return true;
+  }
+  return length == degree;
+}
+
+void ManifoldSurface::remove(std::uint32_t triangle) {
+  Triangle& t = triangles_[triangle];
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const std::uint32_t corner = 3 * triangle + i;
+    std::uint32_t* link = &first_corner_[t[i]];
+    while (*link != corner) link = &next_corner_[*link];
+    *link = next_corner_[corner];
+  }
+  t = {kNone, kNone, kNone};
+}
+
+void ManifoldSurface::corners(std::uint32_t v, std::vector<Corner>& found) const {
+  found.clear();
+  // Ends of the paths: `to` has no successor, `from` no predecessor.
+  std::vector<std::uint32_t> from, to;
+  for_each_link_edge(v, [&](const LinkEdge& link) {
+    if (successor(v, link.end) == kNone) to.push_back(link.end);
+    bool preceded = false;
+    for_each_link_edge(v, [&](const LinkEdge& other) { preceded |= other.end == link.begin; });
+    if (!preceded) from.push_back(link.begin);
+  });
+  if (to.size() == 1) {
+    found.push_back({v, from[0], to[0]});
+    return;
+  }
+  std::sort(to.begin(), to.end());
+  std::sort(from.begin(), from.end());
+  for (const std::uint32_t end : to) {
+    // The first beginning counter-clockwise of the end: half turns first, then by cross product.
+    const auto sooner = [&](std::uint32_t a, std::uint32_t b) {
+      const bool left_a = turn(v, end, a) > 0, left_b = turn(v, end, b) > 0;
+      return left_a != left_b ? left_a : turn(v, a, b) > 0;
+    };
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < from.size(); ++i) {
+      if (sooner(from[i], from[first])) first = i;
+    }
+    found.push_back({v, from[first], end});
+    from.erase(from.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
+void ManifoldSurface::paths(std::uint32_t v, std::vector<std::vector<std::uint32_t>>& found) const {
+  found.clear();
+  std::vector<LinkEdge> links;
+  for_each_link_edge(v, [&](const LinkEdge& link) { links.push_back(link); });
+  std::sort(links.begin(), links.end(),
+            [](const LinkEdge& a, const LinkEdge& b) { return a.begin < b.begin; });
+  std::vector<bool> taken(links.size(), false);
+  const auto take = [&](std::uint32_t end, bool forward, std::vector<std::uint32_t>& path) {
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (std::size_t i = 0; i < links.size(); ++i) {
+        if (taken[i] || (forward ? links[i].begin : links[i].end) != end) continue;
+        taken[i] = moved = true;
+        path.push_back(links[i].corner / 3);
+        end = forward ? links[i].end : links[i].begin;
+      }
+    }
+  };
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (taken[i]) continue;
+    taken[i] = true;
+    found.push_back({links[i].corner / 3});
+    take(links[i].end, true, found.back());
+    take(links[i].begin, false, found.back());
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+}
+
+std::vector<Triangle> ManifoldSurface::triangles() const {
+  std::vector<Triangle> kept;
+  kept.reserve(triangles_.size());
+  for (const Triangle& t : triangles_) {
+    if (t[0] != kNone) kept.push_back(t);
+  }
+  return kept;
+}
+
+}  // namespace burnish
