@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "burnish/core/point_cloud.h"
-#include "burnish/points/surface_columns.h"
+#include "burnish/points/surface_cells.h"
 
 namespace burnish {
 

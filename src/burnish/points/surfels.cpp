@@ -1,0 +1,231 @@
+#include "burnish/points/surfels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "burnish/base/parallel.h"
+#include "burnish/core/gather.h"
+
+namespace burnish {
+namespace {
+
+constexpr double kAgree = 0.5;     // least cosine between normals of one surface
+constexpr double kAlong = 0.3;     // least component along the axis of a field to look into
+constexpr double kWindow = 1.5;    // radius of a window, spacings
+constexpr double kDeep = 3;        // half its depth, standard deviations
+constexpr double kSharp = 1. / 3;  // sigma of a point that is fine enough, spacings
+constexpr double kWidest = 4;      // largest growth of the spacing
+constexpr double kWeak = 1. / 3;   // support of a layer that yields to one beside it
+constexpr double kApart = 0.5;     // least distance across creases, spacings
+constexpr int kRounds = 3;         // of the mean shift
+
+bool agree(const Vec3d& n, const Vec3f& m) {
+  return dot(n, Vec3d(m)) > kAgree;
+}
+
+/// Where q lies relative to a surface element at p with normal n: its height above the plane, and
+/// the square of its distance from p after it slid to the plane along `axis`.
+struct Offset {
+  double height, squared_reach;
+
+  Offset(const Vec3d& p, const Vec3d& n, const Vec3f& q, std::size_t axis) {
+    Vec3d d = Vec3d(q) - p;
+    height = dot(d, n);
+    d[axis] -= height / n[axis];
+    squared_reach = squared_norm(d);
+  }
+};
+
+double window_depth(const SurfaceCell& cell, double spacing) {
+  const double deviation = std::sqrt(static_cast<double>(cell.measured) / cell.weight);
+  return std::max(kDeep * deviation, spacing / 2);
+}
+
+Surfel surfel_at(const SurfaceCell& cell, double spacing) {
+  return {cell.position, cell.normal, static_cast<float>(spacing), cell.information,
+          static_cast<float>(window_depth(cell, spacing))};
+}
+
+/// The spacing at which the measurements of a window suffice: sigma falls as 1 / spacing, so that
+/// sigma / spacing = kSharp at the geometric mean of the present spacing and sigma / kSharp.
+double sufficient_spacing(double information, double spacing) {
+  if (!(information > 0)) return spacing;
+  const double sigma = 1 / std::sqrt(information);
+  return spacing * std::clamp(std::sqrt(sigma / (kSharp * spacing)), 1.0, kWidest);
+}
+
+/// One step of the mean shift of a surfel whose column runs along `column_axis`.
+Surfel shifted(const SurfaceCells& cells, Surfel surfel, std::size_t column_axis) {
+  const Vec3d p(surfel.position), n(surfel.normal);
+  const double radius = kWindow * surfel.spacing;
+  const double per_radius = 1 / (radius * radius);
+  const double per_depth = 1 / (static_cast<double>(surfel.depth) * surfel.depth);
+  double weight = 0, height = 0, information = 0;
+  Vec3d normal;
+  cells.index.visit(p, n, radius, kAlong, [&](std::uint32_t i, std::size_t axis) {
+    const SurfaceCell& cell = cells.cells[i];
+    if (!agree(n, cell.normal)) return;
+    const Offset offset(p, n, cell.position, axis);
+    const double across = 1 - offset.squared_reach * per_radius;
+    const double along = 1 - offset.height * offset.height * per_depth;
+    if (across <= 0 || along <= 0) return;
+    const double kernel = across * across * along * along;
+    weight += kernel * cell.weight;
+    height += kernel * cell.weight * offset.height;
+    information += kernel * cell.information;
+    normal += kernel * cell.weight * Vec3d(cell.normal);
+  });
+  if (!(weight > 0)) return surfel;
+  if (std::abs(n[column_axis]) >= kAlong) {
+    surfel.position[column_axis] =
+        static_cast<float>(p[column_axis] + height / weight / n[column_axis]);
+  }
+  surfel.normal = Vec3f(normalized(normal));
+  surfel.information = static_cast<float>(information);
+  return surfel;
+}
+
+/// Calls visit(j, offset) for the surfels of the same surface within `radius` of surfel i.
+template <class Visit>
+void visit_around(const Surfels& surfels, std::size_t i, double radius, const Visit& visit) {
+  const Surfel& surfel = surfels.points[i];
+  const Vec3d p(surfel.position), n(surfel.normal);
+  surfels.index.visit(p, n, radius, kAlong, [&](std::uint32_t j, std::size_t axis) {
+    const Surfel& other = surfels.points[j];
+    if (!agree(n, other.normal)) return;
+    const Offset offset(p, n, other.position, axis);
+    if (std::abs(offset.height) > surfel.depth) return;
+    if (offset.squared_reach < radius * radius) visit(j, offset);
+  });
+}
+
+/// Whether a layer with far more support lies above or below surfel i.
+bool weak(const Surfels& surfels, std::size_t i) {
+  const Surfel& surfel = surfels.points[i];
+  bool found = false;
+  visit_around(surfels, i, surfel.spacing, [&](std::uint32_t j, const Offset& offset) {
+    const bool beside = std::abs(offset.height) * 3 > surfel.spacing;
+    found |= beside && surfel.information < kWeak * surfels.points[j].information;
+  });
+  return found;
+}
+
+/// Whether a kept surfel is too near to surfel i: nearer than the spacing on the same surface, or
+/// nearer than half of it on any that does not face the other way.
+bool crowded(const Surfels& surfels, std::size_t i, const std::vector<std::uint8_t>& is_kept) {
+  const Surfel& surfel = surfels.points[i];
+  bool near = false;
+  visit_around(surfels, i, surfel.spacing,
+               [&](std::uint32_t j, const Offset&) { near |= is_kept[j] != 0; });
+  if (near) return true;
+  const double apart = kApart * surfel.spacing;
+  const Vec3d p(surfel.position), n(surfel.normal);
+  surfels.index.visit(p, n, apart, -kAgree, [&](std::uint32_t j, std::size_t) {
+    const Surfel& other = surfels.points[j];
+    near |= is_kept[j] && dot(n, Vec3d(other.normal)) > -kAgree &&
+            squared_norm(Vec3d(other.position) - p) < apart * apart;
+  });
+  return near;
+}
+
+}  // namespace
+
+Surfels seed_surfels(const SurfaceCells& cells, double spacing) {
+  std::vector<std::uint32_t> seeds;
+  Surfels surfels;
+  const std::size_t count = cells.cells.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const SurfaceCell& cell = cells.cells[i];
+    const std::size_t axis = cells.index.axis(i);
+    const double depth = window_depth(cell, spacing);
+    const auto nearby = [&](std::size_t j) {
+      return cells.index.same_column(i, j) &&
+             std::abs(cells.cells[j].position[axis] - cell.position[axis]) < depth;
+    };
+    bool largest = true;
+    for (std::size_t j = i; largest && j-- > 0 && nearby(j);) {
+      largest = cells.cells[j].weight < cell.weight;
+    }
+    for (std::size_t j = i + 1; largest && j < count && nearby(j); ++j) {
+      largest = cells.cells[j].weight <= cell.weight;
+    }
+    if (!largest) continue;
+    seeds.push_back(static_cast<std::uint32_t>(i));
+    surfels.points.push_back(surfel_at(cell, spacing));
+  }
+  surfels.index = cells.index.subset(seeds);
+  return surfels;
+}
+
+Surfels every_cell(const SurfaceCells& cells, double spacing) {
+  Surfels surfels{{}, cells.index};
+  for (const SurfaceCell& cell : cells.cells) surfels.points.push_back(surfel_at(cell, spacing));
+  return surfels;
+}
+
+bool slide(const SurfaceCells& cells, bool grow, Surfels& surfels, const Context& context) {
+  for (int round = 0; round < kRounds; ++round) {
+    const bool complete = parallel_for(
+        context.part(static_cast<double>(round) / kRounds, (round + 1.0) / kRounds),
+        surfels.points.size(),
+        [&](IndexRange range) {
+          for (std::size_t i = range.begin; i < range.end; ++i) {
+            Surfel& surfel = surfels.points[i];
+            surfel = shifted(cells, surfel, surfels.index.axis(i));
+            if (round > 0 || !grow) continue;
+            surfel.spacing =
+                static_cast<float>(sufficient_spacing(surfel.information, surfel.spacing));
+          }
+        },
+        512);
+    if (!complete) return false;
+  }
+  return true;
+}
+
+bool thin(const Surfels& surfels, std::vector<std::uint32_t>& kept, const Context& context) {
+  const std::size_t count = surfels.points.size();
+  std::vector<std::uint8_t> is_weak(count), is_kept(count);
+  const bool complete = parallel_for(context.part(0, 0.5), count, [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) is_weak[i] = weak(surfels, i);
+  });
+  if (!complete) return false;
+  kept.clear();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (i % 8192 == 0 && context.cancelled()) return false;
+    if (is_weak[i] || crowded(surfels, i, is_kept)) continue;
+    is_kept[i] = 1;
+    kept.push_back(i);
+  }
+  context.progress(1);
+  return true;
+}
+
+bool find_owners(const SurfaceCells& cells, const Surfels& surfels,
+                 std::vector<std::uint32_t>& owners, const Context& context) {
+  owners.assign(cells.cells.size(), kNoSurfel);
+  float widest = 0;
+  for (const Surfel& surfel : surfels.points) widest = std::max(widest, surfel.spacing);
+  return parallel_for(context, owners.size(), [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const SurfaceCell& cell = cells.cells[i];
+      const std::size_t axis = cells.index.axis(i);
+      const Vec3d p(cell.position), n(cell.normal);
+      double least = kWindow * kWindow;  // squared distance in spacings
+      surfels.index.visit(p, n, kWindow * widest, kAlong, [&](std::uint32_t j, std::size_t) {
+        const Surfel& surfel = surfels.points[j];
+        const Vec3d normal(surfel.normal);
+        if (!agree(normal, cell.normal) || std::abs(normal[axis]) < kAlong) return;
+        const Offset offset(Vec3d(surfel.position), normal, cell.position, axis);
+        if (std::abs(offset.height) > surfel.depth) return;
+        const double distance =
+            offset.squared_reach / (static_cast<double>(surfel.spacing) * surfel.spacing);
+        if (distance >= least) return;
+        least = distance;
+        owners[i] = j;
+      });
+    }
+  });
+}
+
+}  // namespace burnish

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "burnish/base/context.h"
+#include "burnish/points/surface_cells.h"
+
+namespace burnish {
+
+/// A point on its way to the surface that the cells around it make.
+struct Surfel {
+  Vec3f position, normal;
+  float spacing = 0;      ///< wanted around it, m
+  float information = 0;  ///< of its window, 1/m^2
+  float depth = 0;        ///< half the depth of its window, m
+};
+
+/// Surfels and where they are.
+struct Surfels {
+  std::vector<Surfel> points;
+  ColumnIndex index;
+};
+
+constexpr std::uint32_t kNoSurfel = std::numeric_limits<std::uint32_t>::max();
+
+/// One surfel for each surface that a column of cells cuts: at the cells with the largest weight
+/// within three standard deviations of the column.
+Surfels seed_surfels(const SurfaceCells& cells, double spacing);
+
+/// A surfel at every cell.
+Surfels every_cell(const SurfaceCells& cells, double spacing);
+
+/// Slides surfels along their columns to where the weighted mean of the cells lies whose normals
+/// agree within 60 degrees, in windows 1.5 spacings in radius across the surface and three standard
+/// deviations deep to either side: some rounds of mean shift. `grow`: the first round also tells
+/// which spacing brings sigma to a third of it, 1 to 4 times the initial. False where cancelled.
+[[nodiscard]] bool slide(const SurfaceCells& cells, bool grow, Surfels& surfels,
+                         const Context& context);
+
+/// The surfels, in their order, to which no earlier one is nearer than their spacing, without those
+/// that have a third of the support of a layer above or below. False where cancelled.
+[[nodiscard]] bool thin(const Surfels& surfels, std::vector<std::uint32_t>& kept,
+                        const Context& context);
+
+/// For every cell the nearest surfel of its surface within 1.5 spacings, or kNoSurfel. False where
+/// cancelled.
+[[nodiscard]] bool find_owners(const SurfaceCells& cells, const Surfels& surfels,
+                               std::vector<std::uint32_t>& owners, const Context& context);
+
+}  // namespace burnish
