@@ -26,11 +26,11 @@ struct Plot {
 };
 
 /// The outline of the bars as a path, from the axis and back to it.
-std::string outline(const Plot& plot, const std::vector<double>& shares) {
+std::string outline(const Plot& plot, const std::vector<double>& heights) {
   std::string path = fmt::format("M{:.1f} {:.1f}", plot.x(plot.axis.low), plot.y(0));
-  const double step = (plot.axis.high - plot.axis.low) / static_cast<double>(shares.size());
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    path += fmt::format("V{:.1f}H{:.1f}", plot.y(shares[i]),
+  const double step = (plot.axis.high - plot.axis.low) / static_cast<double>(heights.size());
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    path += fmt::format("V{:.1f}H{:.1f}", plot.y(heights[i]),
                         plot.x(plot.axis.low + step * static_cast<double>(i + 1)));
   }
   return path + fmt::format("V{:.1f}", plot.y(0));
@@ -44,8 +44,9 @@ void write_line(HtmlWriter& html, double x1, double y1, double x2, double y2,
 
 void write_label(HtmlWriter& html, double x, double y, std::string_view text,
                  std::string_view anchor) {
-  html.element("text", text,
-               {{"x", fmt::format("{:.1f}", x)}, {"y", fmt::format("{:.1f}", y)}, {"text-anchor", anchor}});
+  html.element(
+      "text", text,
+      {{"x", fmt::format("{:.1f}", x)}, {"y", fmt::format("{:.1f}", y)}, {"text-anchor", anchor}});
 }
 
 void write_axes(HtmlWriter& html, const Plot& plot) {
@@ -74,11 +75,12 @@ void write_legend(HtmlWriter& html, const std::vector<Series>& series) {
 
 }  // namespace
 
-std::vector<double> shares(const std::vector<double>& values, double low, double high, int bins) {
-  std::vector<double> result(static_cast<std::size_t>(bins));
-  for (const double value : values) {
-    const double place = std::floor((value - low) / (high - low) * bins);
-    if (place >= 0 && place < bins) ++result[static_cast<std::size_t>(place)];
+std::vector<double> shares(std::span<const float> values, const Axis& axis) {
+  std::vector<double> result(static_cast<std::size_t>(axis.bins));
+  for (const float value : values) {
+    const double place =
+        std::floor((value * axis.factor - axis.low) / (axis.high - axis.low) * axis.bins);
+    if (place >= 0 && place < axis.bins) ++result[static_cast<std::size_t>(place)];
   }
   for (double& share : result) share /= static_cast<double>(values.size());
   return result;
@@ -105,7 +107,7 @@ void write_histogram(HtmlWriter& html, std::string_view id, const Axis& axis,
   std::vector<std::vector<double>> heights;
   double highest = 0;
   for (const Series& one : series) {
-    heights.push_back(shares(one.values, axis.low, axis.high, axis.bins));
+    heights.push_back(shares(one.values, axis));
     for (const double share : heights.back()) highest = std::max(highest, share);
   }
   const Plot plot{axis, highest > 0 ? highest * 1.06 : 1};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,22 +11,22 @@ namespace burnish {
 /// One curve of a histogram.
 struct Series {
   std::string name;
-  std::vector<double> values;
+  std::span<const float> values;
 };
 
 /// What is shown along the axis.
 struct Axis {
-  std::string title;         ///< "Angles of the triangles"
-  std::string unit;          ///< "°"
+  std::string title;  ///< "Angles of the triangles"
+  std::string unit;   ///< "mm"
+  double factor = 1;  ///< from the unit of the values to the unit of the axis
   double low = 0, high = 1;
   int bins = 60;
-  double mark = 0;           ///< a thin line with a label here; not within the axis: none
-  std::string mark_label;
+  double mark = 0;  ///< a thin line with a label here; not within the axis: none
+  std::string mark_label{};
 };
 
-/// The share of `values` in each of `bins` equal parts of [low, high); those outside count in the
-/// whole but in no part.
-std::vector<double> shares(const std::vector<double>& values, double low, double high, int bins);
+/// The share of `values` in each of the axis' bins; those outside count in the whole but in no bin.
+std::vector<double> shares(std::span<const float> values, const Axis& axis);
 
 /// 1, 2 or 5 times a power of ten, so that `extent` has at most `steps` of them.
 double nice_step(double extent, int steps);

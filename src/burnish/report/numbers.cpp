@@ -12,17 +12,21 @@ namespace burnish {
 namespace {
 
 struct NamedUnit {
-  double size;  ///< in the SI unit
+  double size;   ///< in the SI unit
+  double least;  ///< the smallest value, in the SI unit, that is shown in it
   std::string_view name;
 };
 
-/// From small to large; the largest that is not larger than a value shows it.
+/// From small to large.
 std::span<const NamedUnit> units_of(std::string_view si) {
-  static constexpr NamedUnit kLength[] = {{1e-6, "µm"}, {1e-3, "mm"}, {1e-2, "cm"}, {1, "m"}};
-  static constexpr NamedUnit kArea[] = {{1e-6, "mm²"}, {1e-4, "cm²"}, {1, "m²"}};
-  static constexpr NamedUnit kVolume[] = {{1e-9, "mm³"}, {1e-6, "cm³"}, {1e-3, "l"}, {1, "m³"}};
-  static constexpr NamedUnit kTime[] = {{1e-3, "ms"}, {1, "s"}, {60, "min"}, {3600, "h"}};
-  static constexpr NamedUnit kAngle[] = {{std::numbers::pi / 180, "°"}};
+  static constexpr NamedUnit kLength[] = {
+      {1e-6, 0, "µm"}, {1e-3, 1e-4, "mm"}, {1e-2, 1e-2, "cm"}, {1, 1, "m"}};
+  static constexpr NamedUnit kArea[] = {{1e-6, 0, "mm²"}, {1e-4, 1e-4, "cm²"}, {1, 0.1, "m²"}};
+  static constexpr NamedUnit kVolume[] = {
+      {1e-9, 0, "mm³"}, {1e-6, 1e-6, "cm³"}, {1e-3, 1e-3, "l"}, {1, 1, "m³"}};
+  static constexpr NamedUnit kTime[] = {
+      {1e-3, 0, "ms"}, {1, 0.5, "s"}, {60, 120, "min"}, {3600, 7200, "h"}};
+  static constexpr NamedUnit kAngle[] = {{std::numbers::pi / 180, 0, "°"}};
   if (si == "m") return kLength;
   if (si == "m2") return kArea;
   if (si == "m3") return kVolume;
@@ -55,7 +59,7 @@ DisplayUnit display_unit(std::string_view si, double size) {
   const NamedUnit* best = &units.front();
   for (const NamedUnit& unit : units) {
     // A hair below the unit still counts as one of it: 1 mm must not become 1000 µm.
-    if (std::abs(size) >= unit.size * (1 - 1e-9)) best = &unit;
+    if (std::abs(size) >= unit.least * (1 - 1e-9)) best = &unit;
   }
   if (size == 0) best = &units[units.size() > 1 ? 1 : 0];
   return {1 / best->size, best->name};
@@ -67,9 +71,10 @@ std::string number_text(double value) {
   if (std::abs(value) < 1e15 && value == std::round(value)) {
     return grouped(fmt::format("{:.0f}", value));
   }
-  if (std::abs(value) >= 1e6 || std::abs(value) < 1e-4) return grouped(fmt::format("{:.3g}", value));
+  if (std::abs(value) >= 1e6 || std::abs(value) < 1e-4)
+    return grouped(fmt::format("{:.3g}", value));
   const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
-  std::string text = fmt::format("{:.{}f}", value, std::max(0, 3 - magnitude));
+  std::string text = fmt::format("{:.{}f}", value, std::max(0, 2 - magnitude));
   if (text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);
     if (text.ends_with('.')) text.pop_back();
@@ -77,7 +82,9 @@ std::string number_text(double value) {
   return grouped(std::move(text));
 }
 
-std::string count_text(std::uint64_t count) { return grouped(fmt::format("{}", count)); }
+std::string count_text(std::uint64_t count) {
+  return grouped(fmt::format("{}", count));
+}
 
 std::string quantity_text(double value, std::string_view si) {
   const DisplayUnit unit = display_unit(si, value);

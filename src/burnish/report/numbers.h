@@ -5,8 +5,8 @@
 
 namespace burnish {
 
-// Numbers for people: a unit in which they are neither tiny nor huge, three to four digits that mean
-// something, narrow spaces between thousands.
+// Numbers for people: a unit in which they are neither tiny nor huge, three to four digits that
+// mean something, narrow spaces between thousands.
 
 /// A unit to show and by what to multiply a value to be in it.
 struct DisplayUnit {
@@ -14,11 +14,11 @@ struct DisplayUnit {
   std::string_view name;
 };
 
-/// The unit in which a value of `size` in the unit `si` ("m", "m2", "m3", "rad", "s" or none) is read
-/// best: 0.0012 m in mm. Angles come in degrees. An unknown unit is kept.
+/// The unit in which a value of `size` in the unit `si` ("m", "m2", "m3", "rad", "s" or none) is
+/// read best: 0.0012 m in mm. Angles come in degrees. An unknown unit is kept.
 DisplayUnit display_unit(std::string_view si, double size);
 
-/// Rounded to four significant digits, trailing zeros left out; whole numbers below 10^15 in full;
+/// Rounded to three significant digits, trailing zeros left out; whole numbers in full;
 /// "–" for what is not finite.
 std::string number_text(double value);
 

@@ -147,8 +147,10 @@ struct Painter::Scene {
       if (squared_norm(sum) > 0) normal = normalized(sum);
     }
     const Light color = back ? linear(options.back) : surface_color(options, sample);
-    const Light lit =
+    Light lit =
         lighting(camera.T_camera_scene.rotate(normal), camera.T_camera_scene.rotate(sample.ray));
+    // Numbers are read off colours: less shade, so that they stay what they are.
+    if (!options.scalars.empty()) lit = mix(lit, {0.85, 0.85, 0.85}, 0.6);
     Light light{color.x * lit.x, color.y * lit.y, color.z * lit.z};
     if (options.edges) {
       std::array<Vec3d, 3> corners;

@@ -121,7 +121,7 @@ View close_up(const TriangleMesh& mesh, const View& wide) {
   View view = wide;
   view.name = "close-up";
   if (!target) return view;
-  const double half = 12 * median_edge_length(mesh);
+  const double half = 9 * median_edge_length(mesh);
   view.half_height = std::clamp(half / target->z, 1e-6, 0.5 * wide.half_height);
   const Vec3d eye = wide.T_world_camera.translation;
   const Vec3d up = wide.T_world_camera.rotate({0, -1, 0});

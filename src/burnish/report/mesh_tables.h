@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "burnish/pipeline/record.h"
+#include "burnish/report/table.h"
+
+namespace burnish {
+
+/// Counts, extent, area and how each phase's mesh hangs together.
+Table topology_table(const Record& record);
+
+/// What is known of the vertices: where they come from, their sigma and observations. No rows where
+/// no phase says anything.
+Table trust_table(const Record& record);
+
+/// Angles of all triangles (degrees) and lengths of all their edges (m); an edge counts once for
+/// each of its triangles. Triangles without an area have no angles.
+struct TriangleShapes {
+  std::vector<float> angles, edges;
+};
+TriangleShapes triangle_shapes(const TriangleMesh& mesh);
+
+/// Quantiles of both, a column per phase.
+Table shape_table(const Record& record, std::vector<TriangleShapes> shapes);
+
+}  // namespace burnish
