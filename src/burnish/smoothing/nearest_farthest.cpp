@@ -2,63 +2,85 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "burnish/smoothing/ring_filter.h"
 
 namespace burnish {
 namespace {
 
-constexpr double kTie = 2e-9;  ///< of a squared distance: 1e-9 of a distance
-constexpr double kNearlyEqual =
-    0.01;                           ///< of a squared distance: beyond it rounding decides nothing
-constexpr double kOpposite = 1e-6;  ///< of a coordinate: about 16 roundings to float
+constexpr double kTie = 2e-9;       ///< of a squared distance: 1e-9 of a distance
+constexpr double kRounding = 1e-6;  ///< of the largest coordinate: about 16 roundings to float
 
-/// Whether p lies in the middle between a and b as far as float coordinates can say.
-bool opposite(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-  const auto size = [](const Vec3d& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  };
-  return size(a + b - 2. * p) <= kOpposite * std::max({size(p), size(a), size(b)});
-}
-
-/// Which neighbours stand for the nearest (or the farthest), given all squared distances.
+/// Which neighbours stand for the nearest (or the farthest): those at the distance `extreme`, and
+/// those opposite to them. All distances are squared.
 class Tie {
  public:
-  Tie(const RingView& ring, std::span<const double> distances, double extreme)
-      : ring_(ring), distances_(distances), extreme_(extreme) {
+  Tie(const RingView& ring, std::span<const double> distances, double extreme, double rounding)
+      : ring_(ring), distances_(distances), extreme_(extreme), rounding_(rounding) {
     for (std::size_t i = 0; i < distances.size(); ++i) count_ += has(i);
   }
 
-  bool has(std::size_t i) const {
-    if (equal(i)) return true;
-    if (std::abs(distances_[i] - extreme_) > kNearlyEqual * extreme_) return false;
-    for (std::size_t k = 0; k < distances_.size(); ++k) {
-      if (equal(k) && opposite(ring_.centre(), ring_.neighbour(i), ring_.neighbour(k))) return true;
-    }
-    return false;
-  }
   double share(std::size_t i) const { return has(i) ? 1 / static_cast<double>(count_) : 0; }
 
  private:
+  bool has(std::size_t i) const {
+    if (equal(i)) return true;
+    for (std::size_t k = 0; k < distances_.size(); ++k) {
+      if (equal(k) && opposite(i, k)) return true;
+    }
+    return false;
+  }
   bool equal(std::size_t i) const { return std::abs(distances_[i] - extreme_) <= kTie * extreme_; }
+
+  /// Whether the vertex lies in the middle between i and k as far as float coordinates can say.
+  bool opposite(std::size_t i, std::size_t k) const {
+    const Vec3d offset = ring_.neighbour(i) + ring_.neighbour(k) - 2. * ring_.centre();
+    return std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)}) <= rounding_;
+  }
 
   const RingView& ring_;
   std::span<const double> distances_;
-  double extreme_;
+  double extreme_, rounding_;
   std::size_t count_ = 0;
 };
 
-/// The weights of Eq. 1; the vertex's own is 0.
-double weigh(const RingView& ring, std::span<double> weights, std::span<double> distances) {
+/// The weights of Eq. 1; the vertex's own is 0. `rounding` is the uncertainty of coordinates.
+double weigh(const RingView& ring, double rounding, std::span<double> weights,
+             std::span<double> distances) {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     distances[i] = squared_norm(ring.neighbour(i) - ring.centre());
+    least = std::min(least, distances[i]);
+    greatest = std::max(greatest, distances[i]);
   }
-  const auto [least, greatest] = std::minmax_element(distances.begin(), distances.end());
-  const Tie nearest(ring, distances, *least), farthest(ring, distances, *greatest);
+  // Whoever is tied differs in distance by at most sqrt(3) times the rounding; mostly nobody does.
+  const auto reach = [rounding](double extreme) {
+    return kTie * extreme + rounding * (4 * std::sqrt(extreme) + 4 * rounding);
+  };
+  const double near = least + reach(least), far = greatest - reach(greatest);
+  int near_count = 0, far_count = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    weights[i] = 1 + nearest.share(i) + farthest.share(i);
+    near_count += distances[i] <= near;
+    far_count += distances[i] >= far;
+    weights[i] = 1. + (distances[i] <= near) + (distances[i] >= far);
+  }
+  if (near_count > 1 || far_count > 1) {
+    const Tie nearest(ring, distances, least, rounding),
+        farthest(ring, distances, greatest, rounding);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      weights[i] = 1 + nearest.share(i) + farthest.share(i);
+    }
   }
   return 0;
+}
+
+double largest_coordinate(const TriangleMesh& mesh) {
+  float largest = 0;
+  for (const Vec3f& p : mesh.positions) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return largest;
 }
 
 }  // namespace
@@ -82,12 +104,17 @@ Result<SmoothingReport> smooth_nearest_farthest(TriangleMesh& mesh,
                                                 const NearestFarthestParams& params,
                                                 const Context& context) {
   if (auto valid = NearestFarthestParams::schema().check(params); !valid) return valid.error();
-  return filter_rings(mesh,
-                      {.iterations = params.iterations,
-                       .boundary = params.boundary,
-                       .damping = params.damping,
-                       .in_place = params.order == UpdateOrder::in_place},
-                      context, weigh);
+  const double rounding = kRounding * largest_coordinate(mesh);
+  return filter_rings(
+      mesh,
+      {.iterations = params.iterations,
+       .boundary = params.boundary,
+       .damping = params.damping,
+       .in_place = params.order == UpdateOrder::in_place},
+      context,
+      [rounding](const RingView& ring, std::span<double> weights, std::span<double> distances) {
+        return weigh(ring, rounding, weights, distances);
+      });
 }
 
 }  // namespace burnish

@@ -27,9 +27,9 @@ struct NearestFarthestParams {
 /// the passes.
 ///
 /// Ties: where several neighbours are equally near (far), the mean of them stands for p_nearest
-/// (p_farthest). Equally near are distances that differ by at most 1e-9 of themselves; and of two
-/// neighbours on opposite sides of the vertex (p_j + p_k = 2 p within 1e-6 of the coordinates)
-/// neither is the nearer one: there, the rounding of float coordinates decides. The first makes
+/// (p_farthest). Equally near are distances that differ by at most 1e-9 of themselves. Of two
+/// neighbours on opposite sides of the vertex, |p_j + p_k - 2 p| <= 1e-6 of the mesh's largest
+/// coordinate (some roundings to float), neither is the nearer or the farther one. The first makes
 /// exact ties independent of the order of vertices; the second keeps the interior of every regular
 /// grid where it is, while ordinary meshes follow the equation to the letter.
 ///
