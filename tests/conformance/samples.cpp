@@ -84,30 +84,25 @@ PointCloud scan(const Vec3d& eye, std::uint64_t seed) {
   return cloud;
 }
 
-}  // namespace
-
-std::vector<PointCloud> sample_clouds() {
-  return {scan({0, 0, 0}, 1), scan({0.11, 0.01, -0.02}, 2), scan({-0.02, 0.09, 0.03}, 3)};
-}
-
-TriangleMesh sample_mesh() {
-  constexpr std::uint32_t kColumns = 90, kRows = 70;
-  TriangleMesh mesh;
-  Random random(5);
+/// Joins `mesh` and a noisy height field with random diagonals, squares of 1 cm, but for those in
+/// the hole.
+template <class Hole>
+void add_height_field(TriangleMesh& mesh, std::uint32_t columns, std::uint32_t rows, double height,
+                      Random& random, Hole hole) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const auto noise = [&] { return 0.0015 * random.normal(); };
-  for (std::uint32_t j = 0; j < kRows; ++j) {
-    for (std::uint32_t i = 0; i < kColumns; ++i) {
+  for (std::uint32_t j = 0; j < rows; ++j) {
+    for (std::uint32_t i = 0; i < columns; ++i) {
       const double x = 0.01 * i + noise();
       const double y = 0.01 * j + noise();
-      const double z = 0.05 * std::sin(9 * x) * std::cos(7 * y) + noise();
+      const double z = height + 0.05 * std::sin(9 * x) * std::cos(7 * y) + noise();
       mesh.positions.push_back(Vec3f(Vec3d{x, y, z}));
-      mesh.attributes.sigma.push_back(static_cast<float>(random.uniform(0.001, 0.002)));
     }
   }
-  for (std::uint32_t j = 0; j + 1 < kRows; ++j) {
-    for (std::uint32_t i = 0; i + 1 < kColumns; ++i) {
-      if (i > 30 && i < 45 && j > 20 && j < 33) continue;  // the hole
-      const std::uint32_t a = j * kColumns + i, b = a + 1, c = b + kColumns, d = a + kColumns;
+  for (std::uint32_t j = 0; j + 1 < rows; ++j) {
+    for (std::uint32_t i = 0; i + 1 < columns; ++i) {
+      if (hole(i, j)) continue;
+      const std::uint32_t a = first + j * columns + i, b = a + 1, c = b + columns, d = a + columns;
       if (random.below(2) == 0) {
         mesh.triangles.push_back({a, b, c});
         mesh.triangles.push_back({a, c, d});
@@ -117,16 +112,36 @@ TriangleMesh sample_mesh() {
       }
     }
   }
+}
+
+void add_tetrahedron(TriangleMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Vec3f& p :
-       {Vec3f{0.1f, 0.1f, 0.3f}, Vec3f{0.13f, 0.11f, 0.32f}, Vec3f{0.09f, 0.14f, 0.31f},
-        Vec3f{0.12f, 0.12f, 0.37f}, Vec3f{0.5f, 0.5f, 0.5f}}) {
+  for (const Vec3f& p : {Vec3f{0.1f, 0.1f, 0.3f}, Vec3f{0.13f, 0.11f, 0.32f},
+                         Vec3f{0.09f, 0.14f, 0.31f}, Vec3f{0.12f, 0.12f, 0.37f}}) {
     mesh.positions.push_back(p);
-    mesh.attributes.sigma.push_back(0.001f);
   }
   for (const Triangle& t :
        {Triangle{0, 2, 1}, Triangle{0, 1, 3}, Triangle{1, 2, 3}, Triangle{2, 0, 3}}) {
     mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+}
+
+}  // namespace
+
+std::vector<PointCloud> sample_clouds() {
+  return {scan({0, 0, 0}, 1), scan({0.11, 0.01, -0.02}, 2), scan({-0.02, 0.09, 0.03}, 3)};
+}
+
+TriangleMesh sample_mesh() {
+  TriangleMesh mesh;
+  Random random(5);
+  add_height_field(mesh, 90, 70, 0, random,
+                   [](auto i, auto j) { return i > 30 && i < 45 && j > 20 && j < 33; });
+  add_height_field(mesh, 9, 8, 0.2, random, [](auto, auto) { return false; });
+  add_tetrahedron(mesh);
+  mesh.positions.push_back({0.5f, 0.5f, 0.5f});
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    mesh.attributes.sigma.push_back(static_cast<float>(random.uniform(0.001, 0.002)));
   }
   mesh.attributes.normals = vertex_normals(mesh);
   describe(mesh.attributes, mesh.positions.size(), random);

@@ -9,8 +9,8 @@ namespace burnish::test {
 /// attribute. No two distances in it are equal.
 std::vector<PointCloud> sample_clouds();
 
-/// A noisy height field with a hole, random diagonals, a second component, an unused vertex, and
-/// every attribute.
+/// A noisy height field with a hole and random diagonals, a small one, a tetrahedron, an unused
+/// vertex, and every attribute.
 TriangleMesh sample_mesh();
 
 }  // namespace burnish::test

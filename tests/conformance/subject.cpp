@@ -47,8 +47,9 @@ Subject subject_of(const TriangulateOperation& operation) {
           operation.resolve};
 }
 
-Subject subject_of(const SmoothOperation& operation) {
-  return {"smooth",
+/// Smoothing and repair alike: an edit of a mesh.
+Subject subject_of(std::string family, const SmoothOperation& operation) {
+  return {std::move(family),
           operation.info,
           {{}, sample_mesh()},
           [&operation](Workpiece& input, const Settings& settings,
@@ -93,7 +94,10 @@ const std::vector<Subject>& subjects() {
     for (const auto& operation : clean_operations()) result.push_back(subject_of(operation));
     for (const auto& operation : merge_operations()) result.push_back(subject_of(operation));
     for (const auto& operation : triangulate_operations()) result.push_back(subject_of(operation));
-    for (const auto& operation : smooth_operations()) result.push_back(subject_of(operation));
+    for (const auto& operation : repair_operations())
+      result.push_back(subject_of("repair", operation));
+    for (const auto& operation : smooth_operations())
+      result.push_back(subject_of("smooth", operation));
     return result;
   }();
   return all;

@@ -40,6 +40,9 @@ Result<RepairReport> remove_small_components(TriangleMesh& mesh, const SmallComp
     kept[c] = sizes[c] >= params.min_triangles && (!params.largest_only || sizes.begin() + static_cast<std::ptrdiff_t>(c) == largest);
   }
 
+  context.progress(0.5);
+  if (context.cancelled()) return cancelled();
+
   TriangleMesh result = mesh;
   result.triangles.clear();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
