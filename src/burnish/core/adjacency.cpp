@@ -1,9 +1,5 @@
 #include "burnish/core/adjacency.h"
 
-#include <algorithm>
-
-#include "burnish/core/edges.h"
-
 namespace burnish {
 namespace {
 
@@ -19,17 +15,16 @@ Adjacency rows_from(std::size_t rows, VisitPairs visit_pairs) {
   return {std::move(offsets), std::move(items)};
 }
 
-/// The rows with every row sorted and its repeats dropped.
-Adjacency distinct(const Adjacency& rows) {
+/// Of every row of `ends` the neighbours that `keep(triangles on the edge to it)`.
+template <class Keep>
+Adjacency neighbours(const Adjacency& ends, Keep keep) {
   std::vector<std::uint32_t> offsets{0}, items;
-  offsets.reserve(rows.size() + 1);
-  items.reserve(rows.items().size() / 2 + 1);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto row = rows.row(i);
-    const auto begin = static_cast<std::ptrdiff_t>(items.size());
-    items.insert(items.end(), row.begin(), row.end());
-    std::sort(items.begin() + begin, items.end());
-    items.erase(std::unique(items.begin() + begin, items.end()), items.end());
+  offsets.reserve(ends.size() + 1);
+  items.reserve(ends.items().size() / 2 + 1);
+  for (std::size_t v = 0; v < ends.size(); ++v) {
+    for_each_neighbour(ends.row(v), [&](std::uint32_t w, std::size_t triangles) {
+      if (keep(triangles)) items.push_back(w);
+    });
     offsets.push_back(static_cast<std::uint32_t>(items.size()));
   }
   return {std::move(offsets), std::move(items)};
@@ -48,34 +43,41 @@ Adjacency triangles_of_vertices(const TriangleMesh& mesh) {
   });
 }
 
-Adjacency one_rings(const TriangleMesh& mesh) {
-  return distinct(rows_from(mesh.positions.size(), [&](auto&& emit) {
+Adjacency edge_ends(const TriangleMesh& mesh) {
+  Adjacency unsorted = rows_from(mesh.positions.size(), [&](auto&& emit) {
     for (const auto& [a, b, c] : mesh.triangles) {
       if (a != b) emit(a, b), emit(b, a);
       if (b != c) emit(b, c), emit(c, b);
       if (c != a) emit(c, a), emit(a, c);
     }
-  }));
+  });
+  // Every pair is there both ways, so that handing out the vertices in rising order to the rows in
+  // which they stand fills rows of the same lengths, each in rising order.
+  std::vector<std::uint32_t> items(unsorted.items().size());
+  std::vector<std::uint32_t> next(unsorted.offsets().begin(), unsorted.offsets().end() - 1);
+  for (std::uint32_t v = 0; v < unsorted.size(); ++v) {
+    for (const std::uint32_t w : unsorted.row(v)) items[next[w]++] = v;
+  }
+  return {std::vector(unsorted.offsets()), std::move(items)};
+}
+
+Adjacency one_rings(const TriangleMesh& mesh) {
+  return neighbours(edge_ends(mesh), [](std::size_t) { return true; });
 }
 
 std::vector<bool> boundary_vertices(const TriangleMesh& mesh) {
-  std::vector<bool> on_boundary(mesh.positions.size(), false);
-  for (const Edge& edge : edges(mesh)) {
-    if (edge.triangles == 2) continue;
-    for (const std::uint32_t v : edge.vertices) on_boundary[v] = true;
+  const Adjacency ends = edge_ends(mesh);
+  std::vector<bool> on_boundary(ends.size(), false);
+  for (std::size_t v = 0; v < ends.size(); ++v) {
+    for_each_neighbour(ends.row(v), [&](std::uint32_t, std::size_t triangles) {
+      if (triangles != 2) on_boundary[v] = true;
+    });
   }
   return on_boundary;
 }
 
 Adjacency boundary_neighbours(const TriangleMesh& mesh) {
-  const std::vector<Edge> all = edges(mesh);
-  return distinct(rows_from(mesh.positions.size(), [&](auto&& emit) {
-    for (const Edge& edge : all) {
-      if (edge.triangles == 2) continue;
-      emit(edge.vertices[0], edge.vertices[1]);
-      emit(edge.vertices[1], edge.vertices[0]);
-    }
-  }));
+  return neighbours(edge_ends(mesh), [](std::size_t triangles) { return triangles != 2; });
 }
 
 }  // namespace burnish

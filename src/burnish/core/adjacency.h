@@ -28,9 +28,14 @@ class Adjacency {
   std::vector<std::uint32_t> offsets_, items_;
 };
 
-/// Per vertex the triangles that use it, rising. A triangle that names a vertex twice is listed once.
-/// O(#V + #T).
+/// Per vertex the triangles that use it, rising. A triangle that names a vertex twice is listed
+/// once. O(#V + #T).
 Adjacency triangles_of_vertices(const TriangleMesh& mesh);
+
+/// Per vertex the vertices joined to it by an edge, rising, once for every triangle on that edge:
+/// an interior neighbour is listed twice, one along a boundary once, one across a non-manifold edge
+/// more often. Itself left out. O(#V + #T).
+Adjacency edge_ends(const TriangleMesh& mesh);
 
 /// Per vertex the distinct vertices joined to it by an edge, rising, itself left out. O(#V + #T).
 Adjacency one_rings(const TriangleMesh& mesh);
@@ -41,5 +46,17 @@ std::vector<bool> boundary_vertices(const TriangleMesh& mesh);
 
 /// Per vertex its neighbours along such edges only, rising.
 Adjacency boundary_neighbours(const TriangleMesh& mesh);
+
+/// Calls `visit(neighbour, triangles)` for every distinct neighbour in a row of edge_ends, rising,
+/// with the number of triangles on the edge to it.
+template <class Visit>
+void for_each_neighbour(std::span<const std::uint32_t> ends, Visit visit) {
+  for (std::size_t i = 0; i < ends.size();) {
+    std::size_t next = i + 1;
+    while (next < ends.size() && ends[next] == ends[i]) ++next;
+    visit(ends[i], next - i);
+    i = next;
+  }
+}
 
 }  // namespace burnish

@@ -42,4 +42,13 @@ std::vector<Edge> edges(const TriangleMesh& mesh) {
   return result;
 }
 
+double mean_edge_length(const TriangleMesh& mesh) {
+  const std::vector<Edge> all = edges(mesh);
+  double sum = 0;
+  for (const auto& [vertices, triangles, forward] : all) {
+    sum += norm(Vec3d(mesh.positions[vertices[0]]) - Vec3d(mesh.positions[vertices[1]]));
+  }
+  return all.empty() ? 0 : sum / static_cast<double>(all.size());
+}
+
 }  // namespace burnish

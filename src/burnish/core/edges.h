@@ -20,8 +20,11 @@ struct Edge {
   bool flipped() const { return triangles == 2 && forward != 1; }
 };
 
-/// Every edge of the mesh once, by (smaller, larger) vertex index; edges from a vertex to itself are
-/// left out. O(#T log valence).
+/// Every edge of the mesh once, by (smaller, larger) vertex index; edges from a vertex to itself
+/// are left out. O(#T log valence).
 std::vector<Edge> edges(const TriangleMesh& mesh);
+
+/// Of all distinct edges, m; 0 where there are none.
+double mean_edge_length(const TriangleMesh& mesh);
 
 }  // namespace burnish

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "burnish/io/atomic_writer.h"
+
 namespace burnish {
 namespace {
 
@@ -179,6 +181,13 @@ Result<std::string> encode_png(std::uint32_t width, std::uint32_t height,
   return encode({width, height, PNG_COLOR_TYPE_GRAY, 16, std::as_bytes(values).data(),
                  width * sizeof(std::uint16_t)},
                 values.size());
+}
+
+Result<void> write_png(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+                       std::span<const Color> pixels) {
+  auto bytes = encode_png(width, height, pixels);
+  if (!bytes) return std::move(bytes).error();
+  return write_file(path, *bytes);
 }
 
 Result<GreyPng> decode_grey_png(std::span<const std::byte> bytes, std::size_t max_pixels) {

@@ -21,6 +21,10 @@ Result<std::string> encode_png(std::uint32_t width, std::uint32_t height,
 Result<std::string> encode_png(std::uint32_t width, std::uint32_t height,
                                std::span<const std::uint16_t> values);
 
+/// Writes encode_png's bytes; the file appears whole or not at all. Errors: also io_failure.
+Result<void> write_png(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+                       std::span<const Color> pixels);
+
 /// One channel of 16-bit numbers, row by row from the top left.
 struct GreyPng {
   std::uint32_t width = 0, height = 0;

@@ -1,55 +1,91 @@
 #include "burnish/smoothing/ring_filter.h"
 
-#include <utility>
-
-#include "burnish/base/parallel.h"
-#include "burnish/core/adjacency.h"
+#include <algorithm>
+#include <cmath>
 
 namespace burnish {
-namespace {
 
-/// The neighbours that each vertex is smoothed with; none where it is to stay.
 Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
-  const Adjacency rings = one_rings(mesh);
-  if (boundary == BoundaryRule::free) return rings;
-  const std::vector<bool> on_boundary = boundary_vertices(mesh);
-  const Adjacency along = boundary_neighbours(mesh);
+  if (boundary == BoundaryRule::free) return one_rings(mesh);
+  const Adjacency ends = edge_ends(mesh);
   std::vector<std::uint32_t> offsets{0}, items;
-  offsets.reserve(rings.size() + 1);
-  items.reserve(rings.items().size());
-  for (std::size_t v = 0; v < rings.size(); ++v) {
-    const auto row = !on_boundary[v]                          ? rings.row(v)
-                     : boundary == BoundaryRule::along_boundary ? along.row(v)
-                                                              : std::span<const std::uint32_t>{};
-    items.insert(items.end(), row.begin(), row.end());
+  offsets.reserve(ends.size() + 1);
+  items.reserve(ends.items().size() / 2);
+  for (std::size_t v = 0; v < ends.size(); ++v) {
+    const std::size_t begin = items.size();
+    std::size_t along = begin;  // the neighbours along the boundary come to stand before this
+    for_each_neighbour(ends.row(v), [&](std::uint32_t w, std::size_t triangles) {
+      items.push_back(w);
+      if (triangles != 2) items[along++] = w;
+    });
+    const bool on_boundary = along > begin;
+    if (on_boundary) items.resize(boundary == BoundaryRule::along_boundary ? along : begin);
     offsets.push_back(static_cast<std::uint32_t>(items.size()));
   }
   return {std::move(offsets), std::move(items)};
 }
 
-}  // namespace
+SigmaFilter::SigmaFilter(const std::vector<float>& sigma)
+    : variance_(sigma.begin(), sigma.end()), averaged_(sigma.size(), 1) {
+  for (double& v : variance_) v *= v;
+  next_ = variance_;
+}
 
-Result<SmoothingReport> filter_rings(TriangleMesh& mesh, int iterations, BoundaryRule boundary,
-                                     const Context& context, const RingRule& rule) {
-  if (auto sound = check(mesh); !sound) return sound.error();
-  const Adjacency rings = smoothing_rings(mesh, boundary);
-  std::vector<Vec3f> positions = mesh.positions, next = mesh.positions;
-  for (int pass = 0; pass < iterations; ++pass) {
-    const bool complete = parallel_for(
-        context.part(static_cast<double>(pass) / iterations, (pass + 1.0) / iterations),
-        positions.size(), [&](IndexRange range) {
-          for (std::size_t v = range.begin; v < range.end; ++v) {
-            const auto ring = rings.row(v);
-            if (!ring.empty()) next[v] = Vec3f(rule(static_cast<std::uint32_t>(v), ring, positions));
-          }
-        });
-    if (!complete) return cancelled();
-    std::swap(positions, next);
+void SigmaFilter::move(std::size_t v, std::span<const std::uint32_t> neighbours, double own,
+                       std::span<const double> weights, double scale) {
+  double squares = own * own, sum = own * own * variance_[v];
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    const double square = weights[i] * scale * weights[i] * scale;
+    squares += square;
+    sum += square * variance_[neighbours[i]];
   }
-  std::swap(mesh.positions, positions);
-  if (!mesh.attributes.normals.empty()) mesh.attributes.normals = vertex_normals(mesh);
-  context.progress(1);
-  return report_moves(iterations == 0 ? mesh.positions : positions, mesh, iterations);
+  next_[v] = sum / squares;
+  averaged_[v] += 1 / squares - 1;
+}
+
+void SigmaFilter::finish_pass() {
+  // Vertices that never move have the same value in both.
+  std::swap(variance_, next_);
+}
+
+std::vector<float> SigmaFilter::take() const {
+  std::vector<float> sigma(variance_.size());
+  for (std::size_t v = 0; v < sigma.size(); ++v) {
+    sigma[v] = static_cast<float>(std::sqrt(variance_[v] / averaged_[v]));
+  }
+  return sigma;
+}
+
+std::vector<Vec3d> in_double(const std::vector<Vec3f>& positions) {
+  std::vector<Vec3d> result(positions.size());
+  std::transform(positions.begin(), positions.end(), result.begin(),
+                 [](const Vec3f& p) { return Vec3d(p); });
+  return result;
+}
+
+std::vector<Vec3f> in_float(const std::vector<Vec3d>& positions) {
+  std::vector<Vec3f> result(positions.size());
+  std::transform(positions.begin(), positions.end(), result.begin(),
+                 [](const Vec3d& p) { return Vec3f(p); });
+  return result;
+}
+
+std::size_t longest_row(const Adjacency& rows) {
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) longest = std::max(longest, rows.row(i).size());
+  return longest;
+}
+
+bool for_in_order(const Context& context, std::size_t count,
+                  const std::function<void(IndexRange)>& body) {
+  constexpr std::size_t kGrain = 2048;
+  for (std::size_t begin = 0; begin < count; begin += kGrain) {
+    if (context.cancelled()) return false;
+    const std::size_t end = std::min(count, begin + kGrain);
+    body({begin, end});
+    context.progress(static_cast<double>(end) / static_cast<double>(count));
+  }
+  return !context.cancelled();
 }
 
 }  // namespace burnish

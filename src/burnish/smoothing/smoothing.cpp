@@ -5,6 +5,12 @@
 
 namespace burnish {
 
+std::vector<std::pair<std::string, BoundaryRule>> boundary_rule_names() {
+  return {{"fixed", BoundaryRule::fixed},
+          {"along_boundary", BoundaryRule::along_boundary},
+          {"free", BoundaryRule::free}};
+}
+
 Facts SmoothingReport::facts() const {
   return {{"iterations", static_cast<double>(iterations), ""},
           {"moved_vertices", static_cast<double>(moved_vertices), ""},

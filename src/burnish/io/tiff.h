@@ -1,0 +1,11 @@
+#pragma once
+
+#include "burnish/io/depth_image.h"
+
+namespace burnish {
+
+/// Reads the first image of a TIFF of either byte order, in strips, with one channel of 16-bit
+/// unsigned or 32-bit float values, top left first. Errors: bad_file, unsupported, out_of_memory.
+Result<DepthImage> decode_tiff(std::span<const std::byte> bytes);
+
+}  // namespace burnish

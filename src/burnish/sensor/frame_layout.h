@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "burnish/base/result.h"
+
+namespace burnish {
+
+/// The depth images of an input, and where to look for what belongs to them.
+struct FrameLayout {
+  std::vector<std::filesystem::path> images;
+  std::vector<double> times;  ///< s; empty, or one per image
+  std::vector<std::filesystem::path>
+      folders;                ///< that may hold poses and camera, the nearest first
+  bool whole_folder = false;  ///< a list of poses in `folders` is meant for all images
+  bool tum = false;           ///< a depth.txt of TUM RGB-D lists the images
+};
+
+/// Finds the images as open_frames describes. Errors: not_found, bad_file, invalid_argument.
+Result<FrameLayout> find_frames(const std::vector<std::filesystem::path>& inputs);
+
+/// The first of `names` that exists in one of the layout's folders.
+std::optional<std::filesystem::path> find_beside(const FrameLayout& layout,
+                                                 std::initializer_list<std::string_view> names);
+
+/// Whether `a` comes before `b` when runs of digits are compared as numbers.
+bool natural_less(std::string_view a, std::string_view b);
+
+}  // namespace burnish

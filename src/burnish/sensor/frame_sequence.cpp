@@ -1,0 +1,244 @@
+#include "burnish/sensor/frame_sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "burnish/sensor/camera_file.h"
+#include "burnish/sensor/frame_layout.h"
+#include "burnish/sensor/pose_list.h"
+
+namespace burnish {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kLargestTimeGap =
+    0.02;  ///< s between an image and its pose, as TUM's own tool has it
+constexpr double kTumDepthScale = 1.0 / 5000;
+constexpr float kSaturated = 65535;  ///< what cameras write for "too far" or "unknown"
+
+std::vector<FrameFile> files_of(const FrameLayout& layout) {
+  std::vector<FrameFile> files;
+  for (std::size_t i = 0; i < layout.images.size(); ++i) {
+    files.push_back({layout.images[i], std::nullopt, layout.times.empty() ? 0 : layout.times[i]});
+  }
+  return files;
+}
+
+/// NAME.pose.txt for NAME.depth.png; empty for other names.
+fs::path pose_file_of(const fs::path& image) {
+  const fs::path name = image.stem();
+  if (name.extension() != ".depth") return {};
+  return image.parent_path() / (name.stem().string() + ".pose.txt");
+}
+
+/// Gives every file the pose beside it; false where not even the first has one.
+Result<bool> read_poses_beside(std::vector<FrameFile>& files) {
+  std::error_code ignored;
+  const fs::path first = pose_file_of(files.front().image);
+  if (first.empty() || !fs::exists(first, ignored)) return false;
+  for (FrameFile& file : files) {
+    const fs::path path = pose_file_of(file.image);
+    if (path.empty()) {
+      return Error{ErrorCode::invalid_argument,
+                   "the first image has a pose file beside it, this one is not called NAME.depth.*",
+                   file.image.string()};
+    }
+    const auto pose = read_pose_matrix(path);
+    if (!pose) return pose.error();
+    file.T_world_camera = *pose;
+  }
+  return true;
+}
+
+Result<void> assign_in_order(const PoseList& list, const fs::path& path,
+                             std::vector<FrameFile>& files) {
+  if (list.poses.size() != files.size()) {
+    return Error{ErrorCode::bad_file,
+                 fmt::format("{} poses for {} depth images, as many as images are expected",
+                             list.poses.size(), files.size()),
+                 path.string()};
+  }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    files[i].T_world_camera = list.poses[i];
+    if (!list.times.empty()) files[i].time = list.times[i];
+  }
+  return {};
+}
+
+/// Gives every image the pose nearest in time, and drops images that have none near enough.
+Result<void> assign_by_time(const PoseList& list, const fs::path& path,
+                            std::vector<FrameFile>& files, std::vector<std::string>& notes) {
+  std::vector<std::size_t> order(list.times.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return list.times[a] < list.times[b]; });
+  const auto gap = [&](std::size_t pose, double time) { return std::abs(list.times[pose] - time); };
+  for (FrameFile& file : files) {
+    const auto after =
+        std::lower_bound(order.begin(), order.end(), file.time,
+                         [&](std::size_t pose, double time) { return list.times[pose] < time; });
+    auto nearest = after == order.end() ? after - 1 : after;
+    if (after != order.begin() && gap(*(after - 1), file.time) <= gap(*nearest, file.time)) {
+      nearest = after - 1;
+    }
+    if (gap(*nearest, file.time) <= kLargestTimeGap) file.T_world_camera = list.poses[*nearest];
+  }
+  const std::size_t all = files.size();
+  std::erase_if(files, [](const FrameFile& file) { return !file.T_world_camera; });
+  if (files.empty()) {
+    return Error{ErrorCode::bad_file,
+                 fmt::format("none of its {} poses is within {} s of one of the {} depth images",
+                             list.poses.size(), kLargestTimeGap, all),
+                 path.string()};
+  }
+  if (files.size() < all) {
+    notes.push_back(fmt::format("{} of {} depth images have no pose within {} s and are left out",
+                                all - files.size(), all, kLargestTimeGap));
+  }
+  return {};
+}
+
+/// Fills in the poses of `files`; false where there are none to be found.
+Result<bool> find_poses(const FrameLayout& layout, const fs::path& given,
+                        std::vector<FrameFile>& files, std::vector<std::string>& notes) {
+  fs::path path = given;
+  if (path.empty()) {
+    const auto beside = read_poses_beside(files);
+    if (!beside || *beside) return beside;
+    if (!layout.whole_folder) return false;
+    path = find_beside(layout, {"pose.txt", "poses.txt", "trajectory.log", "trajectory.txt",
+                                "groundtruth.txt"})
+               .value_or("");
+    if (path.empty()) return false;
+  }
+  const auto list = read_pose_list(path);
+  if (!list) return list.error();
+  const bool timed = !list->times.empty() && !layout.times.empty();
+  const auto assigned =
+      timed ? assign_by_time(*list, path, files, notes) : assign_in_order(*list, path, files);
+  if (!assigned) return assigned.error();
+  return true;
+}
+
+/// The preset that frames of this size most likely come from.
+std::optional<Sensor> sensor_for_size(std::uint32_t width, std::uint32_t height) {
+  for (const char* name : {"primesense", "kinect_v2", "azure_kinect"}) {
+    const Sensor sensor = find_sensor(name).value();
+    if (sensor.camera.width == width && sensor.camera.height == height) return sensor;
+  }
+  return std::nullopt;
+}
+
+Result<Sensor> choose_sensor(const std::string& name, const DepthImage& image,
+                             std::vector<std::string>& notes) {
+  if (!name.empty()) return find_sensor(name);
+  const auto sensor = sensor_for_size(image.width, image.height);
+  const Sensor chosen = sensor ? *sensor : find_sensor("primesense").value();
+  notes.push_back(fmt::format("no sensor is named: noise and range are those of {}", chosen.name));
+  return chosen;
+}
+
+Result<Camera> choose_camera(const FrameOptions& options, const CameraFile& beside,
+                             const Sensor& sensor, const DepthImage& image,
+                             std::vector<std::string>& notes) {
+  const bool known = options.camera || beside.camera;
+  Camera camera = options.camera ? *options.camera : beside.camera ? *beside.camera : sensor.camera;
+  if (known && camera.width == 0) camera.width = image.width;
+  if (known && camera.height == 0) camera.height = image.height;
+  if (camera.width != image.width || camera.height != image.height) {
+    return Error{
+        ErrorCode::invalid_argument,
+        fmt::format("the first depth image has {} x {} pixels, the camera {} {} x {}: give "
+                    "the camera of these images as fx,fy,cx,cy",
+                    image.width, image.height, known ? "given" : "of " + sensor.name, camera.width,
+                    camera.height),
+        {}};
+  }
+  if (auto sound = check(camera); !sound) return sound.error();
+  if (!known) {
+    notes.push_back(
+        fmt::format("no camera is given: fx={:.6g} fy={:.6g} cx={:.6g} cy={:.6g} of {} "
+                    "are assumed",
+                    camera.fx, camera.fy, camera.cx, camera.cy, sensor.name));
+  }
+  return camera;
+}
+
+/// Looks for camera.txt, then for camera-intrinsics.txt.
+Result<CameraFile> find_camera(const FrameLayout& layout) {
+  const auto path = find_beside(layout, {"camera.txt", "camera-intrinsics.txt"});
+  return path ? read_camera_file(*path) : CameraFile{};
+}
+
+}  // namespace
+
+double default_depth_scale(const DepthImage& image) {
+  return image.integer ? 0.001 : 1;
+}
+
+Result<DepthFrame> FrameSequence::read(std::size_t i) const {
+  const FrameFile& file = files_[i];
+  const auto image = read_depth_image(file.image);
+  if (!image) return image.error();
+  if (image->width != camera_.width || image->height != camera_.height) {
+    return Error{ErrorCode::bad_file,
+                 fmt::format("the image has {} x {} pixels, the camera {} x {}", image->width,
+                             image->height, camera_.width, camera_.height),
+                 file.image.string()};
+  }
+  DepthFrame frame{
+      camera_, {}, file.T_world_camera.value_or(RigidTransform{}), sensor_.noise, file.time};
+  const double scale = depth_scale_.value_or(default_depth_scale(*image));
+  const double nearest = std::max(sensor_.noise.min_depth, 0.0);
+  const double farthest =
+      sensor_.noise.max_depth > 0 ? sensor_.noise.max_depth : std::numeric_limits<float>::max();
+  frame.depth.reserve(image->values.size());
+  for (const float value : image->values) {
+    const double z = value * scale;
+    const bool measured =
+        value > 0 && !(image->integer && value == kSaturated) && z >= nearest && z <= farthest;
+    frame.depth.push_back(measured ? static_cast<float>(z) : 0.f);
+  }
+  return frame;
+}
+
+Result<FrameSequence> open_frames(const std::vector<fs::path>& inputs,
+                                  const FrameOptions& options) {
+  if (options.depth_scale && !(*options.depth_scale > 0 && std::isfinite(*options.depth_scale))) {
+    return Error{
+        ErrorCode::invalid_argument,
+        fmt::format("depth_scale is {}, metres per unit are expected", *options.depth_scale),
+        {}};
+  }
+  const auto layout = find_frames(inputs);
+  if (!layout) return layout.error();
+  FrameSequence sequence;
+  sequence.files_ = files_of(*layout);
+  const auto posed = find_poses(*layout, options.poses, sequence.files_, sequence.notes_);
+  if (!posed) return posed.error();
+  sequence.has_poses_ = *posed;
+
+  const auto beside = find_camera(*layout);
+  if (!beside) return beside.error();
+  const auto first = read_depth_image(sequence.files_.front().image);
+  if (!first) return first.error();
+  const std::string& named = options.sensor.empty() ? beside->sensor : options.sensor;
+  const auto sensor = choose_sensor(named, *first, sequence.notes_);
+  if (!sensor) return sensor.error();
+  sequence.sensor_ = *sensor;
+  auto camera = choose_camera(options, *beside, *sensor, *first, sequence.notes_);
+  if (!camera) {
+    camera.error().where = sequence.files_.front().image.string();
+    return camera.error();
+  }
+  sequence.camera_ = *camera;
+  sequence.depth_scale_ = options.depth_scale ? options.depth_scale : beside->depth_scale;
+  if (!sequence.depth_scale_ && layout->tum) sequence.depth_scale_ = kTumDepthScale;
+  return sequence;
+}
+
+}  // namespace burnish
