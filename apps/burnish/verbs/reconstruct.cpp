@@ -65,7 +65,7 @@ Result<void> run(const Options& options, const Session& session, const Context& 
   if (auto written = save(options.output, made->mesh, session, context.part(0.85, 0.88)); !written) return written;
   if (!options.report.empty()) {
     context.stage("writing " + options.report);
-    if (auto written = write_report(options.report, made->record, {}, context.part(0.88, 1)); !written) {
+    if (auto written = write_report(options.report, made->record, ReportOptions{}, context.part(0.88, 1)); !written) {
       return written;
     }
   }

@@ -34,7 +34,7 @@ Result<void> smooth(const Options& options, const Session& session, const Contex
   if (auto written = save(options.output, *mesh, session, context.part(0.7, 0.8)); !written) return written;
   if (keep_phases) {
     context.stage("writing " + options.report);
-    if (auto written = write_report(options.report, record, {}, context.part(0.8, 1)); !written) return written;
+    if (auto written = write_report(options.report, record, ReportOptions{}, context.part(0.8, 1)); !written) return written;
   }
   say_steps(session, record);
   return {};

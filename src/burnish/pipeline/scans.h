@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "burnish/base/context.h"
 #include "burnish/core/point_cloud.h"
 #include "burnish/pipeline/record.h"
 #include "burnish/sensor/frame_sequence.h"
