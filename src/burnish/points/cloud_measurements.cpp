@@ -120,7 +120,8 @@ Measurement CloudMeasurements::read(std::size_t list, std::size_t i) const {
     const Vec3d ray = p - view.eye;
     const double facing = std::abs(dot(normalized(ray), Vec3d(m.normal)));
     const double footprint = view.pitch * norm(ray);
-    const double in_patch = weighing_.spacing * weighing_.spacing * facing / (footprint * footprint);
+    const double in_patch =
+        weighing_.spacing * weighing_.spacing * facing / (footprint * footprint);
     m.information /= 1 + std::max(0.0, in_patch - 1) * weighing_.correlation;
   }
   return m;
