@@ -35,9 +35,11 @@ Result<double> estimate_registration(CloudMeasurements& measurements, double spa
     moves.push_back(std::abs(dot(move, Vec3d(surfel.normal))));
   }
   if (moves.empty()) return 0.0;
-  const auto middle = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() / 2);
-  std::nth_element(moves.begin(), middle, moves.end());
-  const double scatter = *middle / 0.6745;
+  // A few frames that are far off make a second layer, so the tail of the scatter counts, not its
+  // middle: 90 % of a normal distribution lie within 1.645 standard deviations.
+  const auto place = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() * 9 / 10);
+  std::nth_element(moves.begin(), place, moves.end());
+  const double scatter = *place / 1.645;
   return std::sqrt(std::max(0.0, scatter * scatter - sigma * sigma));
 }
 

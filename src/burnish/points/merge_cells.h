@@ -12,7 +12,7 @@ struct MergeCellsParams {
   double spacing = 0;        ///< m; 0: twice the median distance between neighbouring rays
   double registration = 0;   ///< how far poses are off, one standard deviation, m; 0: estimated
   double correlation = 0.5;  ///< of the noise of neighbouring pixels of one image
-  int min_observations = 1;  ///< points that fewer measurements support are left out
+  int min_observations = 3;  ///< points that fewer measurements support are left out
 
   static const Schema<MergeCellsParams>& schema();
 };
@@ -22,21 +22,23 @@ struct MergeCellsParams {
 ///
 /// 1. Measurements are averaged in fine cells: columns half a spacing wide along the axis nearest
 /// to
-///    their normal, as deep as the noise. Sides of a sheet have opposite normals and never share
-///    one.
-/// 2. Every cell's mean slides along its column to where the weighted mean of all measurements lies
-///    whose normals agree within 60 degrees, in a window 1.5 spacings in radius across the surface
-///    and three standard deviations deep (mean shift to the moving least squares surface; cf. Levin
-///    1998). Where the measurements are too few to bring sigma below a third of the spacing,
-///    spacing and window grow, up to four times.
-/// 3. Thinning keeps means that no kept one is nearer to than the spacing, in the order of the
-///    columns; layers with a third of the support of one beside them go first.
+///    their normal, as deep as the noise. Sides of a sheet have opposite normals and share none.
+/// 2. Where a column holds most, a seed slides along it to where the weighted mean of all
+///    measurements lies whose normals agree within 60 degrees, in a window 1.5 spacings in radius
+///    across the surface and three standard deviations deep to either side (mean shift to a moving
+///    least squares surface; cf. Levin 1998). Where measurements are too few to bring sigma below a
+///    third of the spacing, spacing and window grow, up to four times.
+/// 3. Thinning keeps, in the order of the columns, seeds that no kept one is nearer to than the
+///    spacing, and drops layers with less than a third of the support of one beside them.
 /// 4. Every cell gives its measurements to the nearest kept point: observations is their number.
 ///
-/// sigma = 1 / sqrt(sum of information), an upper estimate, as windows overlap. n pixels of one
-/// image in one patch share `correlation` of their noise, so each adds 1 / (sigma^2 (1 + (n - 1)
-/// correlation)), n from the pixel's footprint; points of unorganized clouds count as independent.
-/// Errors of the poses weigh measurements and deepen windows but are no part of sigma.
+/// sigma = 1 / sqrt(sum of information), an upper estimate, as windows are wider than patches.
+/// n pixels of one image in a patch share `correlation` of their noise, so each of them adds
+/// 1 / (sigma^2 (1 + (n - 1) correlation)), n from the pixel's footprint; points of unorganized
+/// clouds count as independent. What poses are off weighs measurements and deepens windows but is
+/// no part of sigma. It is estimated from how far measurements scatter beyond their sigma about
+/// their common surface; frames that are off by more than about three times that make a layer of
+/// their own.
 ///
 /// Clouds need normals; points without one are left out. Without sigma in every cloud all points
 /// weigh the same and the result has no sigma. Positions are relative to the first cloud's frame;

@@ -12,7 +12,6 @@ using Pixel = ProjectiveGrid::Pixel;
 
 constexpr std::size_t kRowsAtOnce = 8;
 constexpr int kLargestRadius = 8;
-constexpr double kSteepest = 3.73;         // tan 75 degrees
 constexpr double kSlopeDeviation = 0.052;  // 3 degrees
 
 /// Sums over a set of pixels from which the plane through them follows.
@@ -176,14 +175,6 @@ std::vector<float> depth_noise(const ProjectiveGrid& grid, std::span<const float
     if (w > 0) noise[i] = static_cast<float>(noise_w / (w * w));
   }
   return noise;
-}
-
-bool same_surface(const Pixel& a, const Pixel& b, double noise) {
-  if (!(a.w > 0 && b.w > 0)) return false;
-  // |1/a.w - 1/b.w| <= 3 noise + steepest * distance across the view, times a.w b.w.
-  const double du = a.u - b.u, dv = a.v - b.v;
-  const double across = std::sqrt(du * du + dv * dv) * std::min(a.w, b.w);
-  return std::abs(a.w - b.w) <= 3 * noise * (a.w * b.w) + kSteepest * across;
 }
 
 bool organized_normals(const ProjectiveGrid& grid, std::span<const float> noise, int radius,

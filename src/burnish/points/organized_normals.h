@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -38,7 +40,15 @@ std::vector<float> depth_noise(const ProjectiveGrid& grid, std::span<const float
 
 /// Whether two neighbouring pixels of the grid can belong to one surface: their depths differ by no
 /// more than three standard deviations and what a surface tilted by 75 degrees explains.
-bool same_surface(const ProjectiveGrid::Pixel& a, const ProjectiveGrid::Pixel& b, double noise);
+inline bool same_surface(const ProjectiveGrid::Pixel& a, const ProjectiveGrid::Pixel& b,
+                         double noise) {
+  constexpr double kSteepest = 3.73;  // tan 75 degrees
+  if (!(a.w > 0 && b.w > 0)) return false;
+  // |1/a.w - 1/b.w| <= 3 noise + steepest * distance across the view, times a.w b.w.
+  const double du = a.u - b.u, dv = a.v - b.v;
+  const double across = std::sqrt(du * du + dv * dv) * std::min(a.w, b.w);
+  return std::abs(a.w - b.w) <= 3 * noise * (a.w * b.w) + kSteepest * across;
+}
 
 /// Normals of unit length towards the viewpoint, 0 where fewer than three pixels or only a line of
 /// them support one. Least squares of w over (u, v) in a window that grows from its pixel along the
