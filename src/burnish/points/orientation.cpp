@@ -25,8 +25,10 @@ struct Link {
 double agreement(std::span<const Vec3f> positions, const std::vector<Vec3f>& normals,
                  std::uint32_t i, std::uint32_t j) {
   const Vec3d along = normalized(Vec3d(positions[j]) - Vec3d(positions[i]));
-  const Vec3d m(normals[j]);
-  return dot(Vec3d(normals[i]), m - along * (2 * dot(m, along)));
+  const Vec3d m(normals[i]), n(normals[j]);
+  const double rise_i = dot(m, along), rise_j = dot(n, along);
+  const double steep = std::max(rise_i * rise_i, rise_j * rise_j);
+  return (dot(m, n) - 2 * rise_i * rise_j) * (1 - steep);
 }
 
 /// The links of the minimum spanning tree, Kruskal's way.

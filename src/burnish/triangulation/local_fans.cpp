@@ -16,6 +16,7 @@ constexpr float kSpacingGrowth = 2;
 /// A neighbour seen under a steeper angle to the tangent plane (60 degrees) is above or below the
 /// point, not beside it.
 constexpr double kSteepSquaredSine = 0.75;
+constexpr double kAlike = 0.8, kAlikeSquaredSine = 0.99;
 
 /// Two unit vectors that make a right-handed frame with the unit vector n (Duff et al. 2017).
 void tangents(const Vec3d& n, Vec3d& u, Vec3d& v) {
@@ -61,11 +62,12 @@ class FanBuilder {
     Vec3d u, v;
     tangents(normal, u, v);
     for (const Neighbour& neighbour : neighbours_) {
-      const Vec3d other(normals_[neighbour.index]);
-      if (neighbour.index == p || dot(normal, other) <= rule_.cos_sheet_angle) continue;
+      const double alike = dot(normal, Vec3d(normals_[neighbour.index]));
+      if (neighbour.index == p || alike <= rule_.cos_sheet_angle) continue;
       const Vec3d to = Vec3d(positions_[neighbour.index]) - centre;
       const double height = dot(normal, to);
-      if (height * height > kSteepSquaredSine * neighbour.squared_distance) continue;
+      const double steepest = alike > kAlike ? kAlikeSquaredSine : kSteepSquaredSine;
+      if (height * height > steepest * neighbour.squared_distance) continue;
       plane_.push_back({dot(u, to), dot(v, to), neighbour.index});
     }
   }
@@ -82,14 +84,14 @@ class FanBuilder {
 
 /// A point far from all others would reach for them over any distance: its own spacing says nothing
 /// of a surface there where no neighbour's is alike.
-void limit_spacing(Fans& fans) {
-  const std::vector<float> own = fans.spacing_;
+void Fans::limit_spacing() {
+  const std::vector<float> own = spacing_;
   for (std::size_t p = 0; p < own.size(); ++p) {
     float widest = 0;
-    for (const std::uint32_t q : fans.rim(p)) {
-      if (q != Fans::kGap) widest = std::max(widest, own[q]);
+    for (const std::uint32_t q : rim(p)) {
+      if (q != kGap) widest = std::max(widest, own[q]);
     }
-    fans.spacing_[p] = std::min(own[p], kSpacingGrowth * widest);
+    spacing_[p] = std::min(own[p], kSpacingGrowth * widest);
   }
 }
 
@@ -122,7 +124,7 @@ bool build_fans(std::span<const Vec3f> positions, std::span<const Vec3f> normals
   fans.rims_.clear();
   fans.rims_.reserve(fans.offsets_[count]);
   for (const auto& block : rims) fans.rims_.insert(fans.rims_.end(), block.begin(), block.end());
-  limit_spacing(fans);
+  fans.limit_spacing();
   return true;
 }
 

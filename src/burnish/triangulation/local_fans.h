@@ -46,9 +46,10 @@ class Fans {
   }
 
  private:
-  friend void limit_spacing(Fans&);
   friend bool build_fans(std::span<const Vec3f>, std::span<const Vec3f>, const NeighbourGrid&,
                          const FanRule&, const Context&, Fans&);
+  void limit_spacing();
+
   std::vector<std::uint32_t> offsets_, rims_;
   std::vector<float> spacing_;
 };
