@@ -41,6 +41,8 @@ std::vector<Link> spanning_links(std::span<const Vec3f> positions,
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t j = neighbours[i * count + k];
       if (j == i || normals[j] == Vec3f{}) continue;
+      const auto back = neighbours.subspan(j * count, count);
+      if (j < i && std::find(back.begin(), back.end(), i) != back.end()) continue;  // had it
       const double weight =
           1 - std::abs(agreement(positions, normals, std::min(i, j), std::max(i, j)));
       links.push_back({static_cast<float>(weight), std::min(i, j), std::max(i, j)});

@@ -16,6 +16,8 @@ constexpr float kSpacingGrowth = 2;
 /// A neighbour seen under a steeper angle to the tangent plane (60 degrees) is above or below the
 /// point, not beside it.
 constexpr double kSteepSquaredSine = 0.75;
+/// Where the normals are alike (37 degrees) it is noise that lifts it: two sheets that face the
+/// same way have a third between them.
 constexpr double kAlike = 0.8, kAlikeSquaredSine = 0.99;
 
 /// Two unit vectors that make a right-handed frame with the unit vector n (Duff et al. 2017).
