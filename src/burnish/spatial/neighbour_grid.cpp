@@ -49,7 +49,8 @@ void sort_few(std::vector<Neighbour>& found, std::size_t wanted) {
     const double d = distance[i], n = index[i];
     double place = 0;
     for (std::size_t j = 0; j < count; ++j) {
-      place += ((distance[j] < d) | ((distance[j] == d) & (index[j] < n))) ? 1.0 : 0.0;
+      const int nearer_one = distance[j] < d, as_near = distance[j] == d, sooner = index[j] < n;
+      place += (nearer_one | (as_near & sooner)) ? 1.0 : 0.0;
     }
     sorted[static_cast<std::size_t>(place)] = found[i];
   }

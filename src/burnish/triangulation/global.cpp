@@ -108,16 +108,18 @@ Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalPa
     return cancelled();
   }
 
+  if (context.cancelled()) return cancelled();
   context.stage("inserting triangles");
   ManifoldSurface surface(ordered.positions, normals);
   insert_candidates(candidates, surface);
+  if (context.cancelled()) return cancelled();
   context.stage("closing holes");
   const auto hole_edges = static_cast<std::size_t>(params.hole_edges);
   std::size_t invented = close_small_holes(surface, ordered.positions, normals, hole_edges);
   separate_pinched_vertices(surface);
   invented += close_small_holes(surface, ordered.positions, normals, hole_edges);
 
-  context.stage("copying");
+  if (context.cancelled()) return cancelled();
   std::vector<Triangle> triangles = surface.triangles();
   for (Triangle& t : triangles) t = {order[t[0]], order[t[1]], order[t[2]]};
   Triangulation result = mesh_of_used_points(cloud, std::move(triangles));

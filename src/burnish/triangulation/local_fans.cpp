@@ -11,9 +11,14 @@ namespace {
 
 constexpr std::size_t kPointsAtOnce = 1024;
 constexpr std::size_t kSpacingNeighbour = 8;
+/// By how much the spacing may grow from a point to a neighbour.
+constexpr float kSpacingGrowth = 2;
 /// A neighbour seen under a steeper angle to the tangent plane (60 degrees) is above or below the
 /// point, not beside it.
 constexpr double kSteepSquaredSine = 0.75;
+/// Where the normals are alike (37 degrees) it is noise that lifts it: two sheets that face the
+/// same way have a third between them.
+constexpr double kAlike = 0.8, kAlikeSquaredSine = 0.99;
 
 /// Two unit vectors that make a right-handed frame with the unit vector n (Duff et al. 2017).
 void tangents(const Vec3d& n, Vec3d& u, Vec3d& v) {
@@ -59,11 +64,12 @@ class FanBuilder {
     Vec3d u, v;
     tangents(normal, u, v);
     for (const Neighbour& neighbour : neighbours_) {
-      const Vec3d other(normals_[neighbour.index]);
-      if (neighbour.index == p || dot(normal, other) <= rule_.cos_sheet_angle) continue;
+      const double alike = dot(normal, Vec3d(normals_[neighbour.index]));
+      if (neighbour.index == p || alike <= rule_.cos_sheet_angle) continue;
       const Vec3d to = Vec3d(positions_[neighbour.index]) - centre;
       const double height = dot(normal, to);
-      if (height * height > kSteepSquaredSine * neighbour.squared_distance) continue;
+      const double steepest = alike > kAlike ? kAlikeSquaredSine : kSteepSquaredSine;
+      if (height * height > steepest * neighbour.squared_distance) continue;
       plane_.push_back({dot(u, to), dot(v, to), neighbour.index});
     }
   }
@@ -77,6 +83,19 @@ class FanBuilder {
 };
 
 }  // namespace
+
+/// A point far from all others would reach for them over any distance: its own spacing says nothing
+/// of a surface there where no neighbour's is alike.
+void Fans::limit_spacing() {
+  const std::vector<float> own = spacing_;
+  for (std::size_t p = 0; p < own.size(); ++p) {
+    float widest = 0;
+    for (const std::uint32_t q : rim(p)) {
+      if (q != kGap) widest = std::max(widest, own[q]);
+    }
+    spacing_[p] = std::min(own[p], kSpacingGrowth * widest);
+  }
+}
 
 bool build_fans(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                 const NeighbourGrid& grid, const FanRule& rule, const Context& context,
@@ -107,6 +126,7 @@ bool build_fans(std::span<const Vec3f> positions, std::span<const Vec3f> normals
   fans.rims_.clear();
   fans.rims_.reserve(fans.offsets_[count]);
   for (const auto& block : rims) fans.rims_.insert(fans.rims_.end(), block.begin(), block.end());
+  fans.limit_spacing();
   return true;
 }
 

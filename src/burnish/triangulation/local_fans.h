@@ -32,7 +32,8 @@ class Fans {
     return {rims_.data() + offsets_[p], rims_.data() + offsets_[p + 1]};
   }
 
-  /// Distance of a point to its eighth neighbour (the last one where there are fewer), m.
+  /// Distance of a point to its eighth neighbour (the last one where there are fewer), but at most
+  /// twice the largest such distance on its rim, m.
   double spacing(std::size_t p) const { return spacing_[p]; }
 
   /// Whether the fan of `p` has the triangle (p, q, r).
@@ -47,6 +48,8 @@ class Fans {
  private:
   friend bool build_fans(std::span<const Vec3f>, std::span<const Vec3f>, const NeighbourGrid&,
                          const FanRule&, const Context&, Fans&);
+  void limit_spacing();
+
   std::vector<std::uint32_t> offsets_, rims_;
   std::vector<float> spacing_;
 };
