@@ -220,6 +220,10 @@ Result<void> ObjReader::read_face(Cursor& cursor) {
     const auto more = read_corner(cursor);
     if (!more) return more.error();
     if (!*more) break;
+    if (corners_.size() > kMaxCorners) {
+      return cursor.line_error(fmt::format("the face has more than {} corners", kMaxCorners),
+                               ErrorCode::unsupported);
+    }
   }
   if (auto ok = faces_->add(corners_); !ok)
     return cursor.line_error(ok.error().message, ok.error().code);

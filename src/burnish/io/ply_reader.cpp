@@ -105,6 +105,12 @@ class PlyReader {
   template <class Scanner>
   Result<void> read_faces(Scanner scan, const PlyElement& element);
   template <class Scanner>
+  bool read_corners(Scanner scan, const PlyElement& element, const PlyProperty& indices,
+                    std::size_t most, std::vector<std::int64_t>& corners);
+  template <class Scanner>
+  Result<void> reserve_for_polygons(Scanner scan, const PlyElement& element,
+                                    const PlyProperty& indices, std::size_t rows);
+  template <class Scanner>
   Result<void> skip_element(Scanner scan, const PlyElement& element);
   template <class Scanner>
   Result<void> walk_over(Scanner scan, const PlyElement& element);
@@ -244,6 +250,61 @@ std::size_t PlyReader::read_triangle_run(const PlyElement& element, std::size_t 
   return rows;
 }
 
+/// Looks ahead over `rows` faces and reserves for their triangles: growing step by step would take
+/// twice the memory at times. What a damaged count says here is found out by the reading itself.
+template <class Scanner>
+Result<void> PlyReader::reserve_for_polygons(Scanner scan, const PlyElement& element,
+                                             const PlyProperty& indices, std::size_t rows) {
+  const Cursor here = cursor_;
+  std::size_t triangles = file_.mesh.triangles.size();
+  bool ok = true;
+  for (std::size_t row = 0; row < rows && ok; ++row) {
+    if (row % kBlockRows == 0 && context_.cancelled()) return cancelled();
+    ok = scan.begin_row();
+    for (const PlyProperty& p : element.properties) {
+      std::int64_t length = 1;
+      if (ok && p.list_count) ok = read_integer(scan, *p.list_count, length) && length >= 0;
+      ok = ok && scan.skip(p.type, static_cast<std::uint64_t>(length));
+      if (ok && &p == &indices && length > 2) triangles += static_cast<std::size_t>(length) - 2;
+    }
+    ok = ok && scan.end_row();
+  }
+  cursor_ = here;
+  if (triangles * sizeof(Triangle) > (std::size_t{48} << 20) + 7 * size_) {
+    return cursor_.byte_error(
+        fmt::format(
+            "the polygons make {} triangles, more than fits the memory allowed for a file of "
+            "{} bytes",
+            triangles, size_),
+        ErrorCode::unsupported);
+  }
+  file_.mesh.triangles.reserve(triangles);
+  return {};
+}
+
+/// Reads a row of faces up to its end and keeps the list `indices`; of more than `most` corners
+/// only one more.
+template <class Scanner>
+bool PlyReader::read_corners(Scanner scan, const PlyElement& element, const PlyProperty& indices,
+                             std::size_t most, std::vector<std::int64_t>& corners) {
+  if (!scan.begin_row()) return false;
+  for (const PlyProperty& p : element.properties) {
+    std::int64_t length = 1;
+    if (p.list_count && !(read_integer(scan, *p.list_count, length) && length >= 0)) return false;
+    if (&p != &indices) {
+      if (!scan.skip(p.type, static_cast<std::uint64_t>(length))) return false;
+      continue;
+    }
+    if (static_cast<std::uint64_t>(length) > scan.most(p.type)) return false;
+    corners.clear();
+    for (std::int64_t i = 0, corner = 0; i < length; ++i) {
+      if (!read_integer(scan, p.type, corner)) return false;
+      if (corners.size() <= most) corners.push_back(corner);
+    }
+  }
+  return true;
+}
+
 template <class Scanner>
 Result<void> PlyReader::read_faces(Scanner scan, const PlyElement& element) {
   const auto indices =
@@ -265,6 +326,10 @@ Result<void> PlyReader::read_faces(Scanner scan, const PlyElement& element) {
       std::count_if(element.properties.begin(), element.properties.end(),
                     [](const PlyProperty& p) { return p.list_count.has_value(); }) == 1;
   const bool strips = element.name == "tristrips";
+  // What a list takes while it is read must stay within the memory allowed for the file.
+  const std::size_t most = strips ? ((std::size_t{48} << 20) + 6 * size_) / 20 : kMaxCorners;
+  bool look_ahead = false;
+  bool looked_ahead = false;
   std::vector<Triangle>& triangles = file_.mesh.triangles;
   const std::size_t least =
       header_.ascii ? 8 : size_of(*indices->list_count) + 3 * size_of(indices->type);
@@ -282,33 +347,26 @@ Result<void> PlyReader::read_faces(Scanner scan, const PlyElement& element) {
       faces.count(run);
       if (run > 0) continue;
     }
-    bool ok = scan.begin_row();
-    for (const PlyProperty& p : element.properties) {
-      if (!ok) break;
-      if (!p.list_count) {
-        ok = scan.skip(p.type, 1);
-        continue;
-      }
-      std::int64_t length = 0;
-      ok = read_integer(scan, *p.list_count, length) && length >= 0 &&
-           static_cast<std::uint64_t>(length) <= scan.most(p.type);
-      if (!ok) break;
-      if (&p != &*indices) {
-        ok = scan.skip(p.type, static_cast<std::uint64_t>(length));
-        continue;
-      }
-      corners.resize(static_cast<std::size_t>(length));
-      for (std::int64_t& corner : corners) ok = ok && read_integer(scan, p.type, corner);
+    if (look_ahead) {
+      const auto reserved = reserve_for_polygons(scan, element, *indices, element.count - face);
+      if (!reserved) return reserved;
+      look_ahead = false;
     }
-    if (!ok) return scan.error(fmt::format("{} {} of {}", element.name, face, element.count));
+    const auto what = [&] { return fmt::format("{} {} of {}", element.name, face, element.count); };
+    if (!read_corners(scan, element, *indices, most, corners)) return scan.error(what());
+    if (corners.size() > most) {
+      return cursor_.byte_error(fmt::format("{} has more than {} corners", what(), most),
+                                ErrorCode::unsupported);
+    }
+    if (strips) triangles.reserve(triangles.size() + corners.size());
     if (auto added = strips ? faces.add_strip(corners) : faces.add(corners); !added) {
       Error error = scan.error("");
       error.code = added.error().code;
       error.message = added.error().message;
       return error;
     }
-    if (!scan.end_row())
-      return scan.error(fmt::format("{} {} of {}", element.name, face, element.count));
+    if (!scan.end_row()) return scan.error(what());
+    if (corners.size() > 3 && !strips && !looked_ahead) look_ahead = looked_ahead = true;
     ++face;
   }
   faces.note(file_.notes);
