@@ -52,7 +52,6 @@ class ObjReader {
   std::optional<FaceList> faces_;
   std::vector<std::int64_t> corners_;
   std::size_t vertices_ = 0, vertex_normals_ = 0, triangles_ = 0;  ///< counted by the running pass
-  std::size_t first_color_ = 0;
   bool one_to_one_ = true;  ///< every face so far gives vertex i the normal i
   bool has_w_ = false, ambiguous_ = false, uses_normals_ = false, some_without_color_ = false;
 };
