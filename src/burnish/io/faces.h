@@ -18,6 +18,9 @@ bool triangulate_polygon(std::span<const Vec3f> positions, std::span<const std::
                          std::vector<Triangle>& triangles);
 inline constexpr std::size_t kMaxConcaveCorners = 2048;
 
+/// Readers refuse faces with more corners, which would take more memory than their files.
+inline constexpr std::size_t kMaxCorners = std::size_t{1} << 19;
+
 /// Gathers the faces of a file: polygons become triangles, what has fewer than three corners is
 /// counted and left out.
 class FaceList {

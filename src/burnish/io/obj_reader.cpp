@@ -52,7 +52,6 @@ class ObjReader {
   std::optional<FaceList> faces_;
   std::vector<std::int64_t> corners_;
   std::size_t vertices_ = 0, vertex_normals_ = 0, triangles_ = 0;  ///< counted by the running pass
-  std::size_t first_color_ = 0;
   bool one_to_one_ = true;  ///< every face so far gives vertex i the normal i
   bool has_w_ = false, ambiguous_ = false, uses_normals_ = false, some_without_color_ = false;
 };
@@ -220,6 +219,10 @@ Result<void> ObjReader::read_face(Cursor& cursor) {
     const auto more = read_corner(cursor);
     if (!more) return more.error();
     if (!*more) break;
+    if (corners_.size() > kMaxCorners) {
+      return cursor.line_error(fmt::format("the face has more than {} corners", kMaxCorners),
+                               ErrorCode::unsupported);
+    }
   }
   if (auto ok = faces_->add(corners_); !ok)
     return cursor.line_error(ok.error().message, ok.error().code);

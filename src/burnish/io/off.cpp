@@ -169,7 +169,7 @@ Result<void> OffReader::read_face(std::uint64_t index, FaceList& faces) {
   };
   std::uint64_t count = 0;
   if (!cursor_.next_filled_line() || !cursor_.number(count)) return bad();
-  if (count > cursor_.remaining() / 2 + 1) return bad();
+  if (count > cursor_.remaining() / 2 + 1 || count > kMaxCorners) return bad();
   corners_.resize(count);
   for (std::int64_t& corner : corners_) {
     if (!cursor_.number(corner)) return bad();

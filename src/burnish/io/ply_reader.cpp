@@ -105,7 +105,15 @@ class PlyReader {
   template <class Scanner>
   Result<void> read_faces(Scanner scan, const PlyElement& element);
   template <class Scanner>
+  bool read_corners(Scanner scan, const PlyElement& element, const PlyProperty& indices,
+                    std::size_t most, std::vector<std::int64_t>& corners);
+  template <class Scanner>
+  Result<void> reserve_for_polygons(Scanner scan, const PlyElement& element,
+                                    const PlyProperty& indices, std::size_t rows);
+  template <class Scanner>
   Result<void> skip_element(Scanner scan, const PlyElement& element);
+  template <class Scanner>
+  Result<void> walk_over(Scanner scan, const PlyElement& element);
   template <class Scanner>
   Result<void> read_element(Scanner scan, const PlyElement& element);
   std::size_t read_triangle_run(const PlyElement& element, std::size_t corners, std::size_t most);
@@ -117,6 +125,7 @@ class PlyReader {
   PlyHeader header_;
   GeometryFile file_;
   bool has_vertices_ = false, wide_ = false;
+  std::vector<std::pair<Cursor, const PlyElement*>> deferred_;  ///< faces before the vertices
 };
 
 /// A count is a claim: a row takes at least so many bytes, in a text two per number.
@@ -139,7 +148,7 @@ Result<void> PlyReader::read_vertices(const PlyElement& element) {
   std::vector<Field> fields;
   for (const PlyProperty& p : element.properties) {
     if (p.list_count) {
-      file_.notes.push_back("the list '" + p.name + "' of the vertices is left out");
+      file_.notes.push_back("the list '" + shown(p.name) + "' of the vertices is left out");
     } else {
       fields.push_back({p.name, p.type});
     }
@@ -241,6 +250,61 @@ std::size_t PlyReader::read_triangle_run(const PlyElement& element, std::size_t 
   return rows;
 }
 
+/// Looks ahead over `rows` faces and reserves for their triangles: growing step by step would take
+/// twice the memory at times. What a damaged count says here is found out by the reading itself.
+template <class Scanner>
+Result<void> PlyReader::reserve_for_polygons(Scanner scan, const PlyElement& element,
+                                             const PlyProperty& indices, std::size_t rows) {
+  const Cursor here = cursor_;
+  std::size_t triangles = file_.mesh.triangles.size();
+  bool ok = true;
+  for (std::size_t row = 0; row < rows && ok; ++row) {
+    if (row % kBlockRows == 0 && context_.cancelled()) return cancelled();
+    ok = scan.begin_row();
+    for (const PlyProperty& p : element.properties) {
+      std::int64_t length = 1;
+      if (ok && p.list_count) ok = read_integer(scan, *p.list_count, length) && length >= 0;
+      ok = ok && scan.skip(p.type, static_cast<std::uint64_t>(length));
+      if (ok && &p == &indices && length > 2) triangles += static_cast<std::size_t>(length) - 2;
+    }
+    ok = ok && scan.end_row();
+  }
+  cursor_ = here;
+  if (triangles * sizeof(Triangle) > (std::size_t{48} << 20) + 7 * size_) {
+    return cursor_.byte_error(
+        fmt::format(
+            "the polygons make {} triangles, more than fits the memory allowed for a file of "
+            "{} bytes",
+            triangles, size_),
+        ErrorCode::unsupported);
+  }
+  file_.mesh.triangles.reserve(triangles);
+  return {};
+}
+
+/// Reads a row of faces up to its end and keeps the list `indices`; of more than `most` corners
+/// only one more.
+template <class Scanner>
+bool PlyReader::read_corners(Scanner scan, const PlyElement& element, const PlyProperty& indices,
+                             std::size_t most, std::vector<std::int64_t>& corners) {
+  if (!scan.begin_row()) return false;
+  for (const PlyProperty& p : element.properties) {
+    std::int64_t length = 1;
+    if (p.list_count && !(read_integer(scan, *p.list_count, length) && length >= 0)) return false;
+    if (&p != &indices) {
+      if (!scan.skip(p.type, static_cast<std::uint64_t>(length))) return false;
+      continue;
+    }
+    if (static_cast<std::uint64_t>(length) > scan.most(p.type)) return false;
+    corners.clear();
+    for (std::int64_t i = 0, corner = 0; i < length; ++i) {
+      if (!read_integer(scan, p.type, corner)) return false;
+      if (corners.size() <= most) corners.push_back(corner);
+    }
+  }
+  return true;
+}
+
 template <class Scanner>
 Result<void> PlyReader::read_faces(Scanner scan, const PlyElement& element) {
   const auto indices =
@@ -248,19 +312,24 @@ Result<void> PlyReader::read_faces(Scanner scan, const PlyElement& element) {
         return p.list_count && (p.name == "vertex_indices" || p.name == "vertex_index");
       });
   if (indices == element.properties.end()) return skip_element(scan, element);
-  if (!has_vertices_) {
-    return cursor_.byte_error("'" + element.name + "' comes before 'vertex'",
-                              ErrorCode::unsupported);
+  if (!has_vertices_) {  // come back when the vertices are known
+    deferred_.emplace_back(cursor_, &element);
+    return walk_over(scan, element);
   }
   for (const PlyProperty& p : element.properties) {
     if (&p != &*indices)
-      file_.notes.push_back("the property '" + p.name + "' of '" + element.name + "' is left out");
+      file_.notes.push_back("the property '" + shown(p.name) + "' of '" + element.name +
+                            "' is left out");
   }
   const auto corners_at = static_cast<std::size_t>(indices - element.properties.begin());
   const bool one_list =
       std::count_if(element.properties.begin(), element.properties.end(),
                     [](const PlyProperty& p) { return p.list_count.has_value(); }) == 1;
   const bool strips = element.name == "tristrips";
+  // What a list takes while it is read must stay within the memory allowed for the file.
+  const std::size_t most = strips ? ((std::size_t{48} << 20) + 6 * size_) / 20 : kMaxCorners;
+  bool look_ahead = false;
+  bool looked_ahead = false;
   std::vector<Triangle>& triangles = file_.mesh.triangles;
   const std::size_t least =
       header_.ascii ? 8 : size_of(*indices->list_count) + 3 * size_of(indices->type);
@@ -278,33 +347,26 @@ Result<void> PlyReader::read_faces(Scanner scan, const PlyElement& element) {
       faces.count(run);
       if (run > 0) continue;
     }
-    bool ok = scan.begin_row();
-    for (const PlyProperty& p : element.properties) {
-      if (!ok) break;
-      if (!p.list_count) {
-        ok = scan.skip(p.type, 1);
-        continue;
-      }
-      std::int64_t length = 0;
-      ok = read_integer(scan, *p.list_count, length) && length >= 0 &&
-           static_cast<std::uint64_t>(length) <= scan.most(p.type);
-      if (!ok) break;
-      if (&p != &*indices) {
-        ok = scan.skip(p.type, static_cast<std::uint64_t>(length));
-        continue;
-      }
-      corners.resize(static_cast<std::size_t>(length));
-      for (std::int64_t& corner : corners) ok = ok && read_integer(scan, p.type, corner);
+    if (look_ahead) {
+      const auto reserved = reserve_for_polygons(scan, element, *indices, element.count - face);
+      if (!reserved) return reserved;
+      look_ahead = false;
     }
-    if (!ok) return scan.error(fmt::format("{} {} of {}", element.name, face, element.count));
+    const auto what = [&] { return fmt::format("{} {} of {}", element.name, face, element.count); };
+    if (!read_corners(scan, element, *indices, most, corners)) return scan.error(what());
+    if (corners.size() > most) {
+      return cursor_.byte_error(fmt::format("{} has more than {} corners", what(), most),
+                                ErrorCode::unsupported);
+    }
+    if (strips) triangles.reserve(triangles.size() + corners.size());
     if (auto added = strips ? faces.add_strip(corners) : faces.add(corners); !added) {
       Error error = scan.error("");
       error.code = added.error().code;
       error.message = added.error().message;
       return error;
     }
-    if (!scan.end_row())
-      return scan.error(fmt::format("{} {} of {}", element.name, face, element.count));
+    if (!scan.end_row()) return scan.error(what());
+    if (corners.size() > 3 && !strips && !looked_ahead) look_ahead = looked_ahead = true;
     ++face;
   }
   faces.note(file_.notes);
@@ -314,7 +376,12 @@ Result<void> PlyReader::read_faces(Scanner scan, const PlyElement& element) {
 template <class Scanner>
 Result<void> PlyReader::skip_element(Scanner scan, const PlyElement& element) {
   file_.notes.push_back(
-      fmt::format("the element '{}' ({} rows) is left out", element.name, element.count));
+      fmt::format("the element '{}' ({} rows) is left out", shown(element.name), element.count));
+  return walk_over(scan, element);
+}
+
+template <class Scanner>
+Result<void> PlyReader::walk_over(Scanner scan, const PlyElement& element) {
   if (element.properties.empty()) return {};
   for (std::size_t row = 0; row < element.count; ++row) {
     if (row % kBlockRows == 0 && !keep_going()) return cancelled();
@@ -342,17 +409,24 @@ Result<GeometryFile> PlyReader::read() {
   if (!header) return header.error();
   header_ = std::move(*header);
   if (header_.facts.frame_origin) origin_ = *header_.facts.frame_origin;
+  const auto read_any = [&](const PlyElement& element) {
+    return header_.ascii ? read_element(TextScanner{cursor_}, element)
+                         : read_element(BinaryScanner{cursor_, header_.order}, element);
+  };
   for (const PlyElement& element : header_.elements) {
     if (auto ok = check_claim(element); !ok) return ok.error();
-    auto ok = header_.ascii ? read_element(TextScanner{cursor_}, element)
-                            : read_element(BinaryScanner{cursor_, header_.order}, element);
-    if (!ok) return ok.error();
+    if (auto ok = read_any(element); !ok) return ok.error();
   }
   if (!has_vertices_) return cursor_.byte_error("the file has no element 'vertex'");
   const bool more = header_.ascii ? cursor_.next_filled_line() : !cursor_.at_end();
-  if (more)
+  if (more) {
     file_.notes.push_back(
         fmt::format("{} bytes after the last element are left out", cursor_.remaining()));
+  }
+  for (const auto& [place, element] : deferred_) {
+    cursor_ = place;
+    if (auto ok = read_any(*element); !ok) return ok.error();
+  }
   file_.grid = header_.facts.grid;
   file_.viewpoint = header_.facts.viewpoint;
   return std::move(file_);
