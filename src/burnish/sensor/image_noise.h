@@ -12,8 +12,10 @@ namespace burnish {
 struct ImageNoise {
   std::vector<float> white;   ///< variance 1, independent from pixel to pixel
   std::vector<float> smooth;  ///< variance 1 - kWhiteShare, correlated between neighbours
-  std::vector<float>
-      loss;  ///< variance 1, correlated over about a pixel, independent of the others
+  // Variance 1, correlated over two pixels, independent of all others:
+  std::vector<float> patches;
+  std::vector<float> shift_x;
+  std::vector<float> shift_y;
 };
 
 /// The share of the variance of Kinect noise that is white. sqrt(kWhiteShare) white + smooth has
