@@ -17,7 +17,10 @@ TriangleMesh scene() {
     for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
   };
   append(small, 50);
-  append({.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}}, 100);
+  TriangleMesh speck;
+  speck.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  speck.triangles = {{0, 1, 2}};
+  append(speck, 100);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) mesh.attributes.sigma.push_back(static_cast<float>(v));
   return mesh;
 }
