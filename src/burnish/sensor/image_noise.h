@@ -19,9 +19,8 @@ struct ImageNoise {
 };
 
 /// The share of the variance of Kinect noise that is white. sqrt(kWhiteShare) white + smooth has
-/// variance 1 and correlation .58, .38, .25, .20, .15 at 1, 2, 3, 4 and 6 pixels. Measured on a
-/// real frame with known truth (the Pyramid of Zhang et al. 2021, Mesh-TGV): .58, .37, .25, .21,
-/// .165.
+/// variance 1 and correlation .58, .38, .25, .20, .15 at 1, 2, 3, 4 and 6 pixels; a real frame
+/// with known truth (the Kinect Pyramid of the MeshTGV data) has .58, .37, .25, .21, .165.
 inline constexpr double kWhiteShare = 0.32;
 
 /// Draws the noise of one image. The value of a pixel depends on (seed, stream, width, height) and
