@@ -233,6 +233,29 @@ TEST(FrameSequence, TheKitchensFramesAgree) {
   }
 }
 
+TEST(FrameSequence, TheKitchensNoiseIsThatOfTheModel) {
+  BURNISH_DATA_OR_SKIP(folder, "depth/kinect_v1_kitchen");
+  const auto frames = open_frames({folder});
+  ASSERT_TRUE(frames);
+  // Second differences along rows see noise, hardly the scene. For noise that is correlated by .58
+  // and .37 over one and two pixels their variance is (6 - 8 * .58 + 2 * .37) sigma^2 = (1.45
+  // sigma)^2. A scene has edges and bends, and surfaces at an angle: within a quarter.
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < frames->size(); i += 10) {
+    const auto frame = frames->read(i);
+    ASSERT_TRUE(frame);
+    for (std::size_t p = 1; p + 1 < frame->depth.size(); ++p) {
+      const double a = frame->depth[p - 1], b = frame->depth[p], c = frame->depth[p + 1];
+      if (a == 0 || b < 1 || c == 0) continue;
+      const double bend = (a - 2 * b + c) / frame->noise.axial(b, 0);
+      if (std::abs(bend) > 8) continue;
+      sum += bend * bend;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(std::sqrt(sum / count), 1.45, 1.45 / 4);
+}
+
 TEST(FrameSequence, TheFivePosedFramesAgreeWhereTheyShould) {
   BURNISH_DATA_OR_SKIP(folder, "depth/kinect_five_posed");
   FrameOptions options;

@@ -5,14 +5,14 @@
 #include <numbers>
 
 #include "burnish/base/parallel.h"
-#include "burnish/base/random.h"
 #include "burnish/sensor/image_noise.h"
 
 namespace burnish {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kEdgeLoss = 0.25;  ///< share of the pixels at depth edges that are lost
+/// Patches below this are lost at depth edges: a quarter of the pixels.
+constexpr float kLostAtEdges = -0.6745f;
 constexpr double kLastIncidence = 80 * kDegree;
 constexpr double kIncidenceSpread = 4 * kDegree;
 constexpr double kSteepestSlope = 5.67;  ///< tan 80 degrees; where depth rises faster is an edge
@@ -32,16 +32,12 @@ class Disturber {
         height_(static_cast<int>(sensor.camera.height)) {}
 
   double measure(std::size_t pixel) const {
-    Random random(params_.seed ^ kEdgeSeed, params_.view << 32 | pixel);
-    const Sight sight = shifted(pixel, random);
-    if (sight.depth == 0 || lost(sight, pixel, random)) return 0;
+    const Sight sight = shifted(pixel);
+    if (sight.depth == 0 || lost(sight, pixel)) return 0;
     return with_steps(with_axial_noise(sight, pixel));
   }
 
  private:
-  static constexpr std::uint64_t kEdgeSeed =
-      0x6564676573;  ///< keeps these draws apart from noise_'s
-
   const Sight& at(int column, int row) const {
     return sights_[static_cast<std::size_t>(std::clamp(row, 0, height_ - 1)) * width_ +
                    std::clamp(column, 0, width_ - 1)];
@@ -76,25 +72,25 @@ class Disturber {
     return edge ? nearest : nullptr;
   }
 
-  Sight shifted(std::size_t pixel, Random& random) const {
+  Sight shifted(std::size_t pixel) const {
     const Sight& own = sights_[pixel];
     const Sight* surface = surface_at_edge(pixel, kLateralReach);
     if (!surface) return own;
     const double fx = sensor_.camera.fx;
     const double sigma_px = params_.noise * fx / surface->depth *
                             sensor_.noise.lateral(surface->depth, surface->incidence, fx);
-    const int dx = static_cast<int>(std::lround(sigma_px * random.normal()));
-    const int dy = static_cast<int>(std::lround(sigma_px * random.normal()));
+    const int dx = static_cast<int>(std::lround(sigma_px * noise_.shift_x[pixel]));
+    const int dy = static_cast<int>(std::lround(sigma_px * noise_.shift_y[pixel]));
     const Sight& other =
         at(static_cast<int>(pixel) % width_ + dx, static_cast<int>(pixel) / width_ + dy);
     return jumps(own, other, std::max(std::abs(dx), std::abs(dy))) ? other : own;
   }
 
-  bool lost(const Sight& sight, std::size_t pixel, Random& random) const {
+  bool lost(const Sight& sight, std::size_t pixel) const {
     if (!sight.lit) return true;
-    const double limit = kLastIncidence + kIncidenceSpread * noise_.loss[pixel];
+    const double limit = kLastIncidence + kIncidenceSpread * noise_.patches[pixel];
     if (sight.incidence > limit) return true;
-    return surface_at_edge(pixel, 1) && random.uniform() < kEdgeLoss * std::min(params_.noise, 1.0);
+    return noise_.patches[pixel] < kLostAtEdges && surface_at_edge(pixel, 1);
   }
 
   /// The distance at depth z between two depths that the sensor can tell.

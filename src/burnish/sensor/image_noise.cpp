@@ -15,6 +15,7 @@ struct Blur {
   double decay;
 };
 constexpr Blur kFineBlur{3, 0.60653065971263342};     // s = 1 px
+constexpr Blur kPatchBlur{6, 0.88249690258459546};    // s = 2 px
 constexpr Blur kCoarseBlur{15, 0.98019867330675525};  // s = 5 px
 
 /// What is not white noise is fine and coarse noise, in these shares of the variance.
@@ -99,19 +100,27 @@ bool fill_blurred(Image& image, const Blur& blur, std::uint64_t seed, std::uint6
 std::optional<ImageNoise> draw_image_noise(std::uint32_t width, std::uint32_t height,
                                            std::uint64_t seed, std::uint64_t stream,
                                            const Context& context) {
-  Image white(width, height), fine(width, height), coarse(width, height), loss(width, height);
   Context quiet = context;  // drawing is a small part of taking a picture
   quiet.sink = nullptr;
-  const bool drawn = fill_white(white, seed, 4 * stream, quiet) &&
-                     fill_blurred(fine, kFineBlur, seed, 4 * stream + 1, quiet) &&
-                     fill_blurred(coarse, kCoarseBlur, seed, 4 * stream + 2, quiet) &&
-                     fill_blurred(loss, kFineBlur, seed, 4 * stream + 3, quiet);
-  if (!drawn) return std::nullopt;
+  constexpr std::uint64_t kImages = 6;
+  std::uint64_t next = kImages * stream;
+  Image white(width, height), fine(width, height), coarse(width, height);
+  Image patches(width, height), shift_x(width, height), shift_y(width, height);
+  if (!fill_white(white, seed, next++, quiet)) return std::nullopt;
+  const std::pair<Image*, const Blur*> blurred[] = {{&fine, &kFineBlur},
+                                                    {&coarse, &kCoarseBlur},
+                                                    {&patches, &kPatchBlur},
+                                                    {&shift_x, &kPatchBlur},
+                                                    {&shift_y, &kPatchBlur}};
+  for (const auto& [image, blur] : blurred) {
+    if (!fill_blurred(*image, *blur, seed, next++, quiet)) return std::nullopt;
+  }
   for (std::size_t i = 0; i < fine.values.size(); ++i) {
     fine.values[i] = static_cast<float>(std::sqrt(kFineShare) * fine.values[i] +
                                         std::sqrt(kCoarseShare) * coarse.values[i]);
   }
-  return ImageNoise{std::move(white.values), std::move(fine.values), std::move(loss.values)};
+  return ImageNoise{std::move(white.values), std::move(fine.values), std::move(patches.values),
+                    std::move(shift_x.values), std::move(shift_y.values)};
 }
 
 }  // namespace burnish

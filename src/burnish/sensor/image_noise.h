@@ -12,14 +12,15 @@ namespace burnish {
 struct ImageNoise {
   std::vector<float> white;   ///< variance 1, independent from pixel to pixel
   std::vector<float> smooth;  ///< variance 1 - kWhiteShare, correlated between neighbours
-  std::vector<float>
-      loss;  ///< variance 1, correlated over about a pixel, independent of the others
+  // Variance 1, correlated over two pixels, independent of all others:
+  std::vector<float> patches;
+  std::vector<float> shift_x;
+  std::vector<float> shift_y;
 };
 
 /// The share of the variance of Kinect noise that is white. sqrt(kWhiteShare) white + smooth has
-/// variance 1 and correlation .58, .38, .25, .20, .15 at 1, 2, 3, 4 and 6 pixels. Measured on a
-/// real frame with known truth (the Pyramid of Zhang et al. 2021, Mesh-TGV): .58, .37, .25, .21,
-/// .165.
+/// variance 1 and correlation .58, .38, .25, .20, .15 at 1, 2, 3, 4 and 6 pixels; a real frame
+/// with known truth (the Kinect Pyramid of the MeshTGV data) has .58, .37, .25, .21, .165.
 inline constexpr double kWhiteShare = 0.32;
 
 /// Draws the noise of one image. The value of a pixel depends on (seed, stream, width, height) and

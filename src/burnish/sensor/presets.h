@@ -23,10 +23,9 @@ struct Sensor {
 
 /// The sensors known by name:
 ///
-/// kinect_v1     640x480, 57 x 47 degrees (fx = 589.4, fy = 552.0), 30 fps, 0.4 to 4.5 m, as Ozbay
-/// and
-///               Cinar state for their scanner. (A real device has square pixels, about fx = fy =
-///               585, 57 x 45 degrees: give --camera for real frames without intrinsics.) Noise:
+/// kinect_v1     640x480, 57 x 47 degrees (fx = 589.4, fy = 552.0) and 30 fps as Ozbay and Cinar
+///               state for their scanner, 0.4 to 4.5 m. (A real device has square pixels, about
+///               fx = fy = 585, 57 x 45 degrees: name that camera for frames of one.) Noise:
 ///               Nguyen, Izadi and Lovell, "Modeling Kinect sensor noise for improved 3D
 ///               reconstruction and tracking", 3DIMPVT 2012: axial 0.0012 + 0.0019 (z - 0.4)^2,
 ///               beyond 60 degrees + 0.0001 / sqrt(z) theta^2 / (pi/2 - theta)^2; lateral 0.8 +

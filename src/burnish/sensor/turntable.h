@@ -45,8 +45,7 @@ struct Simulation {
 ///   truth/poses.txt               x y z qx qy qz qw of every view
 ///   simulation.json               the parameters
 /// The axis is vertical (z) through the middle of the model's box. View i looks from azimuth
-/// 2 pi i / views and from ring i mod rings; ring r is elevation + r (90 deg - elevation) / rings
-/// high.
+/// 2 pi i / views and from ring i mod rings, ring r at elevation + r (pi/2 - elevation) / rings.
 ///
 /// The folder is made; one that is there must be empty or hold an earlier simulation, whose frames
 /// are then replaced. On error or cancellation it is as before: pictures gather in a hidden
