@@ -1,5 +1,6 @@
 #include "burnish/base/parallel.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -7,6 +8,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -68,6 +70,11 @@ bool parallel_for(const Context& context, std::size_t count,
   if (threads <= 1) {
     for (std::size_t i = 0; i < total && !stopped; ++i) run_chunk(i);
   } else {
+    // Asked for more threads than the machine has, oneTBB would print a warning.
+    std::optional<tbb::global_control> allow;
+    if (threads > tbb::this_task_arena::max_concurrency()) {
+      allow.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    }
     tbb::task_arena arena(threads);
     arena.execute([&] { tbb::parallel_for(std::size_t{0}, total, run_chunk); });
   }

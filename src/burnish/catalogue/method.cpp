@@ -26,7 +26,7 @@ std::vector<OperationInfo> infos(std::span<const Op> list) {
 }  // namespace
 
 std::span<const std::string_view> families() {
-  static constexpr std::string_view kFamilies[] = {"clean", "merge", "triangulate", "smooth"};
+  static constexpr std::string_view kFamilies[] = {"clean", "merge", "triangulate", "repair", "smooth"};
   return kFamilies;
 }
 
@@ -34,6 +34,7 @@ std::vector<OperationInfo> operations_of(std::string_view family) {
   if (family == "clean") return infos(clean_operations());
   if (family == "merge") return infos(merge_operations());
   if (family == "triangulate") return infos(triangulate_operations());
+  if (family == "repair") return infos(repair_operations());
   if (family == "smooth") return infos(smooth_operations());
   return {};
 }
@@ -46,6 +47,9 @@ Result<const MergeOperation*> find_merge(std::string_view name) {
 }
 Result<const TriangulateOperation*> find_triangulate(std::string_view name) {
   return find_in(triangulate_operations(), "triangulate", name);
+}
+Result<const RepairOperation*> find_repair(std::string_view name) {
+  return find_in(repair_operations(), "repair", name);
 }
 Result<const SmoothOperation*> find_smooth(std::string_view name) {
   return find_in(smooth_operations(), "smooth", name);

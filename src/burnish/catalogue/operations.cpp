@@ -1,6 +1,12 @@
 #include "burnish/catalogue/operations.h"
 
+#include "burnish/points/merge_cells.h"
+#include "burnish/repair/small_components.h"
+#include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
+#include "burnish/triangulation/global.h"
+#include "burnish/triangulation/organized.h"
 
 // The list of everything that burnish can do. A new method is one line here.
 namespace burnish {
@@ -11,19 +17,42 @@ std::span<const CleanOperation> clean_operations() {
 }
 
 std::span<const MergeOperation> merge_operations() {
-  static const std::vector<MergeOperation> list{};
+  static const std::vector<MergeOperation> list{
+      creation_operation("cells", merge_cells, &Merging::cloud,
+                         "Points of one surface patch are averaged, weighted by their precision.", ""),
+  };
   return list;
 }
 
 std::span<const TriangulateOperation> triangulate_operations() {
-  static const std::vector<TriangulateOperation> list{};
+  static const std::vector<TriangulateOperation> list{
+      creation_operation("global", triangulate_global, &Triangulation::mesh,
+                         "One orientable manifold surface from what the local fans agree on.",
+                         "linsen_prautzsch_2001"),
+      creation_operation("organized", triangulate_organized, &Triangulation::mesh,
+                         "The image grid of one frame, cut at depth jumps beyond the noise.", ""),
+  };
+  return list;
+}
+
+std::span<const RepairOperation> repair_operations() {
+  static const std::vector<RepairOperation> list{
+      edit_operation("small_components", remove_small_components,
+                     "Components too small to be anything but specks of noise go.", ""),
+  };
   return list;
 }
 
 std::span<const SmoothOperation> smooth_operations() {
   static const std::vector<SmoothOperation> list{
+      edit_operation("nearest_farthest", smooth_nearest_farthest,
+                     "Mean of the one-ring in which the nearest and the farthest neighbour count twice.",
+                     "ozbay_cinar"),
       edit_operation("one_ring_mean", smooth_one_ring_mean,
                      "Each vertex moves to the mean of its one-ring and itself.", "ozbay_cinar"),
+      edit_operation("gaussian", smooth_gaussian,
+                     "Mean of the one-ring and the vertex itself, weighted by a Gaussian of the distance.",
+                     "ozbay_cinar"),
   };
   return list;
 }

@@ -11,6 +11,7 @@ namespace burnish {
 std::span<const CleanOperation> clean_operations();
 std::span<const MergeOperation> merge_operations();
 std::span<const TriangulateOperation> triangulate_operations();
+std::span<const RepairOperation> repair_operations();
 std::span<const SmoothOperation> smooth_operations();
 
 /// The families' names, and what the operations of one of them are; empty for an unknown family.
@@ -33,6 +34,7 @@ std::string to_string(const Method& method);
 Result<const CleanOperation*> find_clean(std::string_view name);
 Result<const MergeOperation*> find_merge(std::string_view name);
 Result<const TriangulateOperation*> find_triangulate(std::string_view name);
+Result<const RepairOperation*> find_repair(std::string_view name);
 Result<const SmoothOperation*> find_smooth(std::string_view name);
 
 }  // namespace burnish

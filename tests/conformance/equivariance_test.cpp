@@ -1,0 +1,105 @@
+#include <utility>
+
+#include "conformance/suite.h"
+
+// What is done to the input must come back as done to the output.
+namespace burnish::test {
+namespace {
+
+class Equivariance : public Conformance {
+ protected:
+  Outcome outcome_of(Workpiece input, const Settings& settings = {}) const {
+    auto outcome = subject().outcome_of(std::move(input), settings);
+    if (!outcome) throw std::runtime_error(subject().name() + ": " + outcome.error().text());
+    return std::move(outcome).value();
+  }
+
+  /// The defaults with every length times `factor`.
+  Settings scaled_defaults(double factor) const {
+    Settings settings;
+    for (const FieldInfo& field : subject().info.fields) {
+      if (field.type != "length") continue;
+      settings.emplace_back(field.key,
+                            shortest(factor * std::strtod(field.default_value.c_str(), nullptr)));
+    }
+    return settings;
+  }
+
+  std::string rotation_defect(const std::array<Vec3d, 3>& rows, const Tolerance& tolerance) const {
+    Outcome turned = expected();
+    turned.output = rotated(turned.output, rows);
+    return difference(turned, outcome_of(rotated(subject().sample, rows)), tolerance);
+  }
+};
+
+TEST_P(Equivariance, ScaledInputGivesScaledOutput) {
+  // By powers of two nothing is rounded, so that not a bit of a position may differ. Facts may be
+  // logarithms or the like.
+  std::string violation;
+  for (const double factor : {0.25, 4.0}) {
+    Outcome larger = expected();
+    larger.output = scaled(larger.output, factor);
+    larger.facts = scaled(larger.facts, factor);
+    const Outcome actual = outcome_of(scaled(subject().sample, factor), scaled_defaults(factor));
+    violation += difference(larger, actual, {.facts = 1e-12});
+  }
+  judge("scaled", violation);
+}
+
+TEST_P(Equivariance, AQuarterTurnOfTheInputTurnsTheOutput) {
+  // A quarter turn rounds nothing but exchanges terms of sums: the last bits may differ.
+  const std::array<Vec3d, 3> turns[] = {{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}},
+                                        {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}},
+                                        {{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}}};
+  std::string violation;
+  for (const auto& turn : turns)
+    violation += rotation_defect(turn, {.position = 1e-6, .facts = 1e-5});
+  judge("turned by a quarter", violation);
+}
+
+TEST_P(Equivariance, ARotationOfTheInputRotatesTheOutput) {
+  // Rotating rounds every coordinate to a float, 6e-8 of its size.
+  const RigidTransform turn = rigid_from_quaternion(0.2, -0.5, 0.3, 0.7, {});
+  judge("rotated", rotation_defect(turn.rows, {.position = 5e-6, .facts = 1e-3}));
+}
+
+TEST_P(Equivariance, TheOrderOfTheInputDoesNotMatter) {
+  const Tolerance tolerance{.position = 1e-6, .facts = 1e-5};
+  if (subject().family == "smooth") {
+    std::vector<std::uint32_t> new_index;
+    const Workpiece other = relabelled(subject().sample, 3, &new_index);
+    Outcome straight = expected(), renamed = outcome_of(other);
+    const Workpiece back = std::exchange(renamed.output, {});
+    for (const std::uint32_t v : new_index) {
+      renamed.output.mesh.positions.push_back(back.mesh.positions[v]);
+    }
+    renamed.output.mesh.attributes = gather(back.mesh.attributes, new_index);
+    straight.output.mesh.triangles.clear();
+    judge("relabelled", difference(straight, renamed, tolerance));
+    return;
+  }
+  const Workpiece plain = unorganized(subject().sample);
+  const auto straight = subject().outcome_of(plain);
+  if (!straight) {
+    // It works on the grid, whose order means something.
+    EXPECT_EQ(straight.error().code, ErrorCode::bad_geometry);
+    EXPECT_NE(straight.error().message.find("organized"), std::string::npos)
+        << straight.error().text();
+    return;
+  }
+  judge("relabelled", unordered_difference(*straight, outcome_of(relabelled(plain, 3)), tolerance));
+}
+
+TEST_P(Equivariance, ZeroIterationsIsTheIdentity) {
+  for (const FieldInfo& field : subject().info.fields) {
+    if (field.key != "iterations") continue;
+    const Outcome outcome = expected({{"iterations", "0"}});
+    EXPECT_TRUE(bytes(outcome.output) == bytes(subject().sample));
+    EXPECT_FALSE(bytes(expected({{"iterations", "1"}}).output) == bytes(subject().sample));
+  }
+}
+
+BURNISH_FOR_EVERY_OPERATION(Equivariance);
+
+}  // namespace
+}  // namespace burnish::test
