@@ -242,8 +242,10 @@ Axis edge_axis(const std::vector<TriangleShapes>& shapes) {
   return axis;
 }
 
-void write_triangles(HtmlWriter& html, const Record& record) {
-  if (record.phases.empty()) return;
+Result<void> write_triangles(HtmlWriter& html, const Record& record, const Context& context) {
+  if (record.phases.empty()) return {};
+  const auto quality = quality_table(record, context);
+  if (!quality) return quality.error();
   std::vector<TriangleShapes> shapes;
   for (const Phase& phase : record.phases) shapes.push_back(triangle_shapes(phase.mesh));
   std::vector<Series> angles, edges;
@@ -257,8 +259,9 @@ void write_triangles(HtmlWriter& html, const Record& record) {
   write_histogram(html, "angles", degrees, angles);
   write_histogram(html, "edges", edge_axis(shapes), edges);
   html.close();
-  write_table(html, shape_table(record, std::move(shapes)));
+  write_table(html, *quality);
   html.close();
+  return {};
 }
 
 void write_surface(HtmlWriter& html, const Record& record) {
@@ -317,7 +320,9 @@ Result<std::string> html_report(const Record& record, const Plates& plates,
   }
   write_steps(html, record);
   write_comparisons(html, record);
-  write_triangles(html, record);
+  if (auto done = write_triangles(html, record, context.part(0.7, 0.9)); !done) {
+    return done.error();
+  }
   if (context.cancelled()) return cancelled();
   write_surface(html, record);
   html.close();
