@@ -101,8 +101,9 @@ void write_head(HtmlWriter& html, const Record& record) {
 }
 
 void write_swatch(HtmlWriter& html, const Color& color, std::string_view what) {
+  html.open("span", {{"class", "item"}});
   html.open("span", {{"class", "swatch"}, {"style", "background:" + hex(color)}}).close();
-  html.element("span", what);
+  html.text(what).close();
 }
 
 void write_color_legend(HtmlWriter& html, const Record& record) {
