@@ -53,6 +53,8 @@ TEST(RowTexts, GivesAllCellsTheSameDecimals) {
 TEST(WordsOf, WritesKeysAsPeopleDo) {
   EXPECT_EQ(words_of("rms_move"), "RMS move");
   EXPECT_EQ(words_of("moved_vertices"), "Moved vertices");
+  EXPECT_EQ(words_of("to_truth_p95"), "To truth 95 %");
+  EXPECT_EQ(words_of("smallest_angle_p01"), "Smallest angle 1 %");
   EXPECT_EQ(words_of(""), "");
 }
 

@@ -170,7 +170,7 @@ TEST(WriteReport, LeavesNoFileWhenCancelled) {
       if (fraction >= at) source.request_stop();
     }
   };
-  for (const double at : {0.0, 0.3, 0.85, 0.95}) {
+  for (const double at : {0.0, 0.3, 0.85, 0.95, 0.985}) {
     const test::TemporaryFolder folder;
     Stop stop;
     stop.at = at;

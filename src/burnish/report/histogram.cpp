@@ -67,8 +67,9 @@ void write_axes(HtmlWriter& html, const Plot& plot) {
 void write_legend(HtmlWriter& html, const std::vector<Series>& series) {
   html.open("p", {{"class", "legend"}});
   for (std::size_t i = 0; i < series.size(); ++i) {
+    html.open("span", {{"class", "item"}});
     html.open("span", {{"class", "key " + series_class(i, series.size())}}).close();
-    html.element("span", series[i].name);
+    html.text(series[i].name).close();
   }
   html.close();
 }

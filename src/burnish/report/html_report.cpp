@@ -101,8 +101,9 @@ void write_head(HtmlWriter& html, const Record& record) {
 }
 
 void write_swatch(HtmlWriter& html, const Color& color, std::string_view what) {
+  html.open("span", {{"class", "item"}});
   html.open("span", {{"class", "swatch"}, {"style", "background:" + hex(color)}}).close();
-  html.element("span", what);
+  html.text(what).close();
 }
 
 void write_color_legend(HtmlWriter& html, const Record& record) {
@@ -242,8 +243,10 @@ Axis edge_axis(const std::vector<TriangleShapes>& shapes) {
   return axis;
 }
 
-void write_triangles(HtmlWriter& html, const Record& record) {
-  if (record.phases.empty()) return;
+Result<void> write_triangles(HtmlWriter& html, const Record& record, const Context& context) {
+  if (record.phases.empty()) return {};
+  const auto quality = quality_table(record, context);
+  if (!quality) return quality.error();
   std::vector<TriangleShapes> shapes;
   for (const Phase& phase : record.phases) shapes.push_back(triangle_shapes(phase.mesh));
   std::vector<Series> angles, edges;
@@ -257,8 +260,9 @@ void write_triangles(HtmlWriter& html, const Record& record) {
   write_histogram(html, "angles", degrees, angles);
   write_histogram(html, "edges", edge_axis(shapes), edges);
   html.close();
-  write_table(html, shape_table(record, std::move(shapes)));
+  write_table(html, *quality);
   html.close();
+  return {};
 }
 
 void write_surface(HtmlWriter& html, const Record& record) {
@@ -317,7 +321,9 @@ Result<std::string> html_report(const Record& record, const Plates& plates,
   }
   write_steps(html, record);
   write_comparisons(html, record);
-  write_triangles(html, record);
+  if (auto done = write_triangles(html, record, context.part(0.7, 0.9)); !done) {
+    return done.error();
+  }
   if (context.cancelled()) return cancelled();
   write_surface(html, record);
   html.close();

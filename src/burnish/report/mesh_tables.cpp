@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "burnish/core/topology.h"
+#include "burnish/measure/area_and_volume.h"
+#include "burnish/measure/triangle_quality.h"
 #include "burnish/report/numbers.h"
 
 namespace burnish {
@@ -31,30 +33,30 @@ std::vector<Topology> topologies(const Record& record) {
   return result;
 }
 
-/// Width, depth and height of the box around all triangles, and their area.
+/// Width, depth and height of the box around all triangles; area and volume.
 Facts size_facts(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
   constexpr double kMost = std::numeric_limits<double>::max();
   Vec3d low{kMost, kMost, kMost}, high = -low;
-  double area = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    area += norm(area_vector(mesh, t)) / 2;
-    for (const std::uint32_t v : mesh.triangles[t]) {
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double x = mesh.positions[v][axis];
         low[axis] = std::min(low[axis], x), high[axis] = std::max(high[axis], x);
       }
     }
   }
-  const Vec3d size = mesh.triangles.empty() ? Vec3d{} : high - low;
-  return {{"extent_x", size.x, "m"},
-          {"extent_y", size.y, "m"},
-          {"extent_z", size.z, "m"},
-          {"area", area, "m2"}};
+  const Vec3d size = high - low;
+  Facts facts{{"extent_x", size.x, "m"}, {"extent_y", size.y, "m"}, {"extent_z", size.z, "m"}};
+  if (const auto measured = area_and_volume(mesh)) {
+    for (Fact& fact : measured->facts()) facts.push_back(std::move(fact));
+  }
+  return facts;
 }
 
 /// The value below which `share` of the values lie; NaN where there are none.
 template <class T>
-double quantile(std::vector<T>& values, double share) {
+double value_at(std::vector<T>& values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
@@ -126,12 +128,12 @@ Table trust_table(const Record& record) {
     }
     if (!attributes.sigma.empty()) {
       std::vector<float> sigma = attributes.sigma;
-      known.push_back({"median_sigma", quantile(sigma, 0.5), "m"});
-      known.push_back({"largest_5_%_of_sigma_from", quantile(sigma, 0.95), "m"});
+      known.push_back({"median_sigma", value_at(sigma, 0.5), "m"});
+      known.push_back({"largest_5_%_of_sigma_from", value_at(sigma, 0.95), "m"});
     }
     if (!attributes.observations.empty()) {
       std::vector<std::uint32_t> observations = attributes.observations;
-      known.push_back({"median_observations", quantile(observations, 0.5), ""});
+      known.push_back({"median_observations", value_at(observations, 0.5), ""});
     }
     facts.push_back(std::move(known));
   }
@@ -156,21 +158,19 @@ TriangleShapes triangle_shapes(const TriangleMesh& mesh) {
   return shapes;
 }
 
-Table shape_table(const Record& record, std::vector<TriangleShapes> shapes) {
+Result<Table> quality_table(const Record& record, const Context& context) {
   Table table{"Shapes of the triangles", phase_names(record), {}};
   std::vector<Facts> facts;
-  for (TriangleShapes& shape : shapes) {
-    constexpr double kRadian = std::numbers::pi / 180;
-    Facts known;
-    known.push_back({"smallest_angle", quantile(shape.angles, 0) * kRadian, "rad"});
-    known.push_back({"angle_that_5_%_stay_below", quantile(shape.angles, 0.05) * kRadian, "rad"});
-    known.push_back({"median_angle", quantile(shape.angles, 0.5) * kRadian, "rad"});
-    known.push_back({"angle_that_5_%_exceed", quantile(shape.angles, 0.95) * kRadian, "rad"});
-    known.push_back({"largest_angle", quantile(shape.angles, 1) * kRadian, "rad"});
-    known.push_back({"shortest_edge", quantile(shape.edges, 0), "m"});
-    known.push_back({"median_edge", quantile(shape.edges, 0.5), "m"});
-    known.push_back({"longest_edge", quantile(shape.edges, 1), "m"});
-    facts.push_back(std::move(known));
+  for (const Phase& phase : record.phases) {
+    if (phase.mesh.triangles.empty()) {
+      facts.emplace_back();
+      continue;
+    }
+    const auto quality = triangle_quality(phase.mesh, context.part(1, 1));
+    if (!quality) return Error{quality.error().code, quality.error().message, phase.name};
+    Facts found = quality->facts();
+    std::erase_if(found, [](const Fact& fact) { return fact.key == "triangles"; });
+    facts.push_back(std::move(found));
   }
   table.rows = rows_of(facts);
   return table;

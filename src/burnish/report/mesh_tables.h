@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "burnish/base/context.h"
+#include "burnish/base/result.h"
 #include "burnish/pipeline/record.h"
 #include "burnish/report/table.h"
 
@@ -21,7 +23,7 @@ struct TriangleShapes {
 };
 TriangleShapes triangle_shapes(const TriangleMesh& mesh);
 
-/// Quantiles of both, a column per phase.
-Table shape_table(const Record& record, std::vector<TriangleShapes> shapes);
+/// What measure/triangle_quality.h says of each phase. Errors: bad_geometry, cancelled.
+Result<Table> quality_table(const Record& record, const Context& context);
 
 }  // namespace burnish

@@ -128,6 +128,11 @@ std::string words_of(std::string_view key) {
     const std::size_t end = std::min(key.find('_'), key.size());
     std::string word(key.substr(0, end));
     key.remove_prefix(std::min(end + 1, key.size()));
+    // A percentile: "p95" is what 95 % do not exceed.
+    if (word.size() == 3 && word[0] == 'p' &&
+        word.find_first_not_of("0123456789", 1) == word.npos) {
+      word = (word[1] == '0' ? word.substr(2) : word.substr(1)) + " %";
+    }
     bool acronym = false;
     for (const std::string_view known : kAcronyms) acronym = acronym || word == known;
     for (char& c : word) {

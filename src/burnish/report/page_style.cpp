@@ -47,7 +47,7 @@ code, .code {
 .swatch { display: inline-block; width: 0.9em; height: 0.9em; border-radius: 3px; margin: 0 0.4em 0 0;
   vertical-align: -0.1em; border: 1px solid var(--line); }
 .legend { color: var(--soft); font-size: 0.87rem; max-width: none; }
-.legend span:not(.key):not(.swatch) { margin-right: 1.4em; }
+.item { display: inline-block; margin-right: 1.4em; }
 .scale { display: flex; align-items: center; gap: 0.6rem; color: var(--soft); font-size: 0.87rem; margin: 0.4rem 0; }
 .scale svg { width: 16rem; height: 0.8rem; border-radius: 3px; }
 .charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(27rem, 100%), 1fr)); gap: 1.6rem; }
