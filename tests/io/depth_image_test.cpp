@@ -159,6 +159,18 @@ TEST(DepthImage, AWrittenPngIsReadBack) {
   EXPECT_EQ(image->values, kFloats);
 }
 
+TEST(DepthImage, AWrittenTiffKeepsEveryBit) {
+  const test::TemporaryFolder folder;
+  const std::vector<float> values = {0.f, 1.2345678f, 1e-30f, 4.5f, -1.f, 3.4e38f};
+  ASSERT_TRUE(write_depth_tiff(folder / "a.tiff", 3, 2, values));
+  const auto image = read_depth_image(folder / "a.tiff");
+  ASSERT_TRUE(image) << image.error().text();
+  EXPECT_EQ(image->width, 3u);
+  EXPECT_EQ(image->values, values);
+  EXPECT_FALSE(image->integer);
+  EXPECT_FALSE(write_depth_tiff(folder / "b.tiff", 2, 2, values));
+}
+
 TEST(DepthImage, ErrorsNameTheFile) {
   const test::TemporaryFolder folder;
   ASSERT_TRUE(write_file(folder / "scan.png", "not an image"));

@@ -34,7 +34,9 @@ DisjointSets joined_across_edges(const TriangleMesh& mesh) {
   return sets;
 }
 
-bool names_twice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+bool names_twice(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
 
 std::size_t count_duplicates(const TriangleMesh& mesh) {
   std::vector<Triangle> sorted = mesh.triangles;
@@ -54,11 +56,13 @@ bool is_one_fan(const TriangleMesh& mesh, std::uint32_t v, std::span<const std::
       if (w != v) spokes.push_back({w, i});
     }
   }
-  std::sort(spokes.begin(), spokes.end(), [](const Spoke& a, const Spoke& b) { return a.end < b.end; });
+  std::sort(spokes.begin(), spokes.end(),
+            [](const Spoke& a, const Spoke& b) { return a.end < b.end; });
   DisjointSets fans(around.size());
   std::size_t count = around.size();
   for (std::size_t i = 1; i < spokes.size(); ++i) {
-    if (spokes[i].end == spokes[i - 1].end) count -= fans.unite(spokes[i].triangle, spokes[i - 1].triangle);
+    if (spokes[i].end == spokes[i - 1].end)
+      count -= fans.unite(spokes[i].triangle, spokes[i - 1].triangle);
   }
   return count <= 1;
 }
@@ -117,6 +121,23 @@ Topology topology(const TriangleMesh& mesh) {
     result.components = std::max<std::size_t>(result.components, c + 1);
   }
   return result;
+}
+
+Facts Topology::facts() const {
+  const auto count = [](std::string key, auto value) {
+    return Fact{std::move(key), static_cast<double>(value), ""};
+  };
+  return {count("edges", edges),
+          count("boundary_edges", boundary_edges),
+          count("boundary_loops", boundary_loops),
+          count("non_manifold_edges", non_manifold_edges),
+          count("non_manifold_vertices", non_manifold_vertices),
+          count("flipped_edges", flipped_edges),
+          count("components", components),
+          count("degenerate_triangles", degenerate_triangles),
+          count("duplicate_triangles", duplicate_triangles),
+          count("unused_vertices", unused_vertices),
+          count("euler_number", euler_number)};
 }
 
 }  // namespace burnish

@@ -83,4 +83,10 @@ bool Cursor::rare_number(double& value) {
   return true;
 }
 
+std::string shown(std::string_view word) {
+  std::string text(word.substr(0, 40));
+  for (char& c : text) c = c >= ' ' && c < 127 ? c : '?';
+  return text;
+}
+
 }  // namespace burnish

@@ -112,6 +112,9 @@ class Cursor {
   std::array<Kind, 256> kinds_{};
 };
 
+/// A word of a file as a message may show it: at most 40 characters, what is not printable as '?'.
+std::string shown(std::string_view word);
+
 /// Reverses the bytes of a number.
 template <class T>
 T byte_swapped(T value) {

@@ -49,4 +49,11 @@ Result<void> write_depth_png(const std::filesystem::path& path, std::uint32_t wi
   return write_file(path, *bytes);
 }
 
+Result<void> write_depth_tiff(const std::filesystem::path& path, std::uint32_t width,
+                              std::uint32_t height, std::span<const float> values) {
+  const auto bytes = encode_tiff(width, height, values);
+  if (!bytes) return bytes.error();
+  return write_file(path, *bytes);
+}
+
 }  // namespace burnish

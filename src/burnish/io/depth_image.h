@@ -36,4 +36,8 @@ Result<DepthImage> decode_depth_image(std::span<const std::byte> bytes);
 Result<void> write_depth_png(const std::filesystem::path& path, std::uint32_t width,
                              std::uint32_t height, std::span<const std::uint16_t> values);
 
+/// The same as an uncompressed TIFF of 32-bit floats, which keeps every bit.
+Result<void> write_depth_tiff(const std::filesystem::path& path, std::uint32_t width,
+                              std::uint32_t height, std::span<const float> values);
+
 }  // namespace burnish

@@ -4,6 +4,8 @@
 #include <tiffio.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
@@ -158,6 +160,47 @@ Result<DepthImage> decode_tiff(std::span<const std::byte> bytes) {
     }
   }
   return image;
+}
+
+Result<std::string> encode_tiff(std::uint32_t width, std::uint32_t height,
+                                std::span<const float> values) {
+  if (values.empty() || values.size() > kMaxDepthPixels ||
+      values.size() != std::size_t{width} * height) {
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("{} values for an image of {} x {}", values.size(), width, height),
+                 {}};
+  }
+  std::string bytes;
+  const auto put = [&bytes](std::uint32_t value, int count) {
+    for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 255);
+  };
+  // Tag, type (3: 16 bits, 4: 32 bits), value; in rising order of tags, as the format asks.
+  const auto pixel_bytes = static_cast<std::uint32_t>(values.size_bytes());
+  const std::array<std::array<std::uint32_t, 3>, 10> entries{
+      {{TIFFTAG_IMAGEWIDTH, 4, width},
+       {TIFFTAG_IMAGELENGTH, 4, height},
+       {TIFFTAG_BITSPERSAMPLE, 3, 32},
+       {TIFFTAG_COMPRESSION, 3, COMPRESSION_NONE},
+       {TIFFTAG_PHOTOMETRIC, 3, PHOTOMETRIC_MINISBLACK},
+       {TIFFTAG_STRIPOFFSETS, 4, 8},
+       {TIFFTAG_SAMPLESPERPIXEL, 3, 1},
+       {TIFFTAG_ROWSPERSTRIP, 4, height},
+       {TIFFTAG_STRIPBYTECOUNTS, 4, pixel_bytes},
+       {TIFFTAG_SAMPLEFORMAT, 3, SAMPLEFORMAT_IEEEFP}}};
+  bytes.reserve(8 + pixel_bytes + 2 + 12 * entries.size() + 4);
+  bytes += "II";
+  put(42, 2);
+  put(8 + pixel_bytes, 4);
+  for (const float value : values) put(std::bit_cast<std::uint32_t>(value), 4);
+  put(entries.size(), 2);
+  for (const auto& [tag, type, value] : entries) {
+    put(tag, 2);
+    put(type, 2);
+    put(1, 4);
+    put(value, 4);
+  }
+  put(0, 4);
+  return bytes;
 }
 
 }  // namespace burnish

@@ -180,9 +180,10 @@ std::vector<float> depth_noise(const ProjectiveGrid& grid, std::span<const float
 
 bool same_surface(const Pixel& a, const Pixel& b, double noise) {
   if (!(a.w > 0 && b.w > 0)) return false;
-  const double difference = std::abs(a.w - b.w) / (a.w * b.w);
-  const double across = std::hypot(a.u - b.u, a.v - b.v) / std::max(a.w, b.w);
-  return difference <= 3 * noise + kSteepest * across;
+  // |1/a.w - 1/b.w| <= 3 noise + steepest * distance across the view, times a.w b.w.
+  const double du = a.u - b.u, dv = a.v - b.v;
+  const double across = std::sqrt(du * du + dv * dv) * std::min(a.w, b.w);
+  return std::abs(a.w - b.w) <= 3 * noise * (a.w * b.w) + kSteepest * across;
 }
 
 bool organized_normals(const ProjectiveGrid& grid, std::span<const float> noise, int radius,

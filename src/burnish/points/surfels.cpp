@@ -17,23 +17,36 @@ constexpr double kSharp = 1. / 3;  // sigma of a point that is fine enough, spac
 constexpr double kWidest = 4;      // largest growth of the spacing
 constexpr double kWeak = 1. / 3;   // support of a layer that yields to one beside it
 constexpr double kApart = 0.5;     // least distance across creases, spacings
-constexpr int kRounds = 3;         // of the mean shift
+constexpr int kRounds = 2;         // of the mean shift
 
 bool agree(const Vec3d& n, const Vec3f& m) {
   return dot(n, Vec3d(m)) > kAgree;
 }
 
-/// Where q lies relative to a surface element at p with normal n: its height above the plane, and
-/// the square of its distance from p after it slid to the plane along `axis`.
-struct Offset {
-  double height, squared_reach;
+/// A piece of surface, and where points lie relative to it.
+class Element {
+ public:
+  struct Offset {
+    double height;         ///< above the plane, m
+    double squared_reach;  ///< from the centre, after sliding to the plane along a column
+  };
 
-  Offset(const Vec3d& p, const Vec3d& n, const Vec3f& q, std::size_t axis) {
-    Vec3d d = Vec3d(q) - p;
-    height = dot(d, n);
-    d[axis] -= height / n[axis];
-    squared_reach = squared_norm(d);
+  explicit Element(const Surfel& surfel)
+      : centre(surfel.position),
+        normal(surfel.normal),
+        slope_{1 / normal.x, 1 / normal.y, 1 / normal.z} {}
+
+  Offset offset(const Vec3f& q, std::size_t column_axis) const {
+    Vec3d d = Vec3d(q) - centre;
+    const double height = dot(d, normal);
+    d[column_axis] -= height * slope_[column_axis];
+    return {height, squared_norm(d)};
   }
+
+  Vec3d centre, normal;
+
+ private:
+  Vec3d slope_;
 };
 
 double window_depth(const SurfaceCell& cell, double spacing) {
@@ -56,29 +69,30 @@ double sufficient_spacing(double information, double spacing) {
 
 /// One step of the mean shift of a surfel whose column runs along `column_axis`.
 Surfel shifted(const SurfaceCells& cells, Surfel surfel, std::size_t column_axis) {
-  const Vec3d p(surfel.position), n(surfel.normal);
+  const Element element(surfel);
   const double radius = kWindow * surfel.spacing;
   const double per_radius = 1 / (radius * radius);
   const double per_depth = 1 / (static_cast<double>(surfel.depth) * surfel.depth);
   double weight = 0, height = 0, information = 0;
   Vec3d normal;
-  cells.index.visit(p, n, radius, kAlong, [&](std::uint32_t i, std::size_t axis) {
-    const SurfaceCell& cell = cells.cells[i];
-    if (!agree(n, cell.normal)) return;
-    const Offset offset(p, n, cell.position, axis);
-    const double across = 1 - offset.squared_reach * per_radius;
-    const double along = 1 - offset.height * offset.height * per_depth;
-    if (across <= 0 || along <= 0) return;
-    const double kernel = across * across * along * along;
-    weight += kernel * cell.weight;
-    height += kernel * cell.weight * offset.height;
-    information += kernel * cell.information;
-    normal += kernel * cell.weight * Vec3d(cell.normal);
-  });
+  cells.index.visit(element.centre, element.normal, radius, kAlong,
+                    [&](std::uint32_t i, std::size_t axis) {
+                      const SurfaceCell& cell = cells.cells[i];
+                      const Element::Offset offset = element.offset(cell.position, axis);
+                      const double across = 1 - offset.squared_reach * per_radius;
+                      const double along = 1 - offset.height * offset.height * per_depth;
+                      if (across <= 0 || along <= 0 || !agree(element.normal, cell.normal)) return;
+                      const double kernel = across * across * along * along;
+                      weight += kernel * cell.weight;
+                      height += kernel * cell.weight * offset.height;
+                      information += kernel * cell.information;
+                      normal += kernel * cell.weight * Vec3d(cell.normal);
+                    });
   if (!(weight > 0)) return surfel;
-  if (std::abs(n[column_axis]) >= kAlong) {
+  const double tilt = element.normal[column_axis];
+  if (std::abs(tilt) >= kAlong) {
     surfel.position[column_axis] =
-        static_cast<float>(p[column_axis] + height / weight / n[column_axis]);
+        static_cast<float>(element.centre[column_axis] + height / weight / tilt);
   }
   surfel.normal = Vec3f(normalized(normal));
   surfel.information = static_cast<float>(information);
@@ -89,21 +103,23 @@ Surfel shifted(const SurfaceCells& cells, Surfel surfel, std::size_t column_axis
 template <class Visit>
 void visit_around(const Surfels& surfels, std::size_t i, double radius, const Visit& visit) {
   const Surfel& surfel = surfels.points[i];
-  const Vec3d p(surfel.position), n(surfel.normal);
-  surfels.index.visit(p, n, radius, kAlong, [&](std::uint32_t j, std::size_t axis) {
-    const Surfel& other = surfels.points[j];
-    if (!agree(n, other.normal)) return;
-    const Offset offset(p, n, other.position, axis);
-    if (std::abs(offset.height) > surfel.depth) return;
-    if (offset.squared_reach < radius * radius) visit(j, offset);
-  });
+  const Element element(surfel);
+  surfels.index.visit(
+      element.centre, element.normal, radius, kAlong, [&](std::uint32_t j, std::size_t axis) {
+        const Surfel& other = surfels.points[j];
+        const Element::Offset offset = element.offset(other.position, axis);
+        if (std::abs(offset.height) <= surfel.depth && offset.squared_reach < radius * radius &&
+            agree(element.normal, other.normal)) {
+          visit(j, offset);
+        }
+      });
 }
 
 /// Whether a layer with far more support lies above or below surfel i.
 bool weak(const Surfels& surfels, std::size_t i) {
   const Surfel& surfel = surfels.points[i];
   bool found = false;
-  visit_around(surfels, i, surfel.spacing, [&](std::uint32_t j, const Offset& offset) {
+  visit_around(surfels, i, surfel.spacing, [&](std::uint32_t j, const Element::Offset& offset) {
     const bool beside = std::abs(offset.height) * 3 > surfel.spacing;
     found |= beside && surfel.information < kWeak * surfels.points[j].information;
   });
@@ -116,7 +132,7 @@ bool crowded(const Surfels& surfels, std::size_t i, const std::vector<std::uint8
   const Surfel& surfel = surfels.points[i];
   bool near = false;
   visit_around(surfels, i, surfel.spacing,
-               [&](std::uint32_t j, const Offset&) { near |= is_kept[j] != 0; });
+               [&](std::uint32_t j, const Element::Offset&) { near |= is_kept[j] != 0; });
   if (near) return true;
   const double apart = kApart * surfel.spacing;
   const Vec3d p(surfel.position), n(surfel.normal);
@@ -204,28 +220,30 @@ bool thin(const Surfels& surfels, std::vector<std::uint32_t>& kept, const Contex
 bool find_owners(const SurfaceCells& cells, const Surfels& surfels,
                  std::vector<std::uint32_t>& owners, const Context& context) {
   owners.assign(cells.cells.size(), kNoSurfel);
-  float widest = 0;
-  for (const Surfel& surfel : surfels.points) widest = std::max(widest, surfel.spacing);
-  return parallel_for(context, owners.size(), [&](IndexRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      const SurfaceCell& cell = cells.cells[i];
-      const std::size_t axis = cells.index.axis(i);
-      const Vec3d p(cell.position), n(cell.normal);
-      double least = kWindow * kWindow;  // squared distance in spacings
-      surfels.index.visit(p, n, kWindow * widest, kAlong, [&](std::uint32_t j, std::size_t) {
-        const Surfel& surfel = surfels.points[j];
-        const Vec3d normal(surfel.normal);
-        if (!agree(normal, cell.normal) || std::abs(normal[axis]) < kAlong) return;
-        const Offset offset(Vec3d(surfel.position), normal, cell.position, axis);
-        if (std::abs(offset.height) > surfel.depth) return;
-        const double distance =
-            offset.squared_reach / (static_cast<double>(surfel.spacing) * surfel.spacing);
-        if (distance >= least) return;
-        least = distance;
-        owners[i] = j;
-      });
+  std::vector<float> distances(owners.size(), static_cast<float>(kWindow * kWindow));
+  for (std::uint32_t j = 0; j < surfels.points.size(); ++j) {
+    if (j % 8192 == 0) {
+      if (context.cancelled()) return false;
+      context.progress(static_cast<double>(j) / static_cast<double>(surfels.points.size()));
     }
-  });
+    const Surfel& surfel = surfels.points[j];
+    const Element element(surfel);
+    const double per_spacing = 1 / (static_cast<double>(surfel.spacing) * surfel.spacing);
+    cells.index.visit(element.centre, element.normal, kWindow * surfel.spacing, kAlong,
+                      [&](std::uint32_t i, std::size_t axis) {
+                        const SurfaceCell& cell = cells.cells[i];
+                        const Element::Offset offset = element.offset(cell.position, axis);
+                        const float distance =
+                            static_cast<float>(offset.squared_reach * per_spacing);
+                        if (std::abs(offset.height) <= surfel.depth && distance < distances[i] &&
+                            agree(element.normal, cell.normal)) {
+                          distances[i] = distance;
+                          owners[i] = j;
+                        }
+                      });
+  }
+  context.progress(1);
+  return true;
 }
 
 }  // namespace burnish

@@ -77,6 +77,7 @@ void write_legend(HtmlWriter& html, const std::vector<Series>& series) {
 
 std::vector<double> shares(std::span<const float> values, const Axis& axis) {
   std::vector<double> result(static_cast<std::size_t>(axis.bins));
+  if (values.empty()) return result;
   for (const float value : values) {
     const double place =
         std::floor((value * axis.factor - axis.low) / (axis.high - axis.low) * axis.bins);

@@ -294,15 +294,14 @@ void write_foot(HtmlWriter& html, const Record& record) {
   write_list(html, "Notes", record.notes);
   write_list(html, "Inputs", record.inputs);
   if (!record.versions.empty()) {
-    Table table{"What it was made with", {"Version"}, {}};
-    for (const auto& [name, version] : record.versions) table.rows.push_back({name, {version}, {}});
-    html.open("section").element("h2", "Versions");
-    write_table(html, table);
-    html.close();
+    html.open("section").element("h2", "Versions").open("ul", {{"class", "pairs"}});
+    for (const auto& [name, version] : record.versions) write_pair(html, name, version);
+    html.close().close();
   }
-  html.element("footer",
-               "Lengths are in the unit that stands beside them. Pictures are ray-cast with "
-               "one normal per triangle.");
+  html.element(
+      "footer",
+      "Pictures are cast ray by ray, with one normal per triangle and the same light in all "
+      "of them.");
 }
 
 }  // namespace

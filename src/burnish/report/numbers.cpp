@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -80,6 +80,31 @@ std::string number_text(double value) {
     if (text.ends_with('.')) text.pop_back();
   }
   return grouped(std::move(text));
+}
+
+std::vector<std::string> row_texts(const std::vector<double>& values) {
+  bool whole = true;
+  double largest = 0, smallest = std::numeric_limits<double>::infinity();
+  for (const double value : values) {
+    if (!std::isfinite(value) || value == 0) continue;
+    whole = whole && value == std::round(value);
+    largest = std::max(largest, std::abs(value));
+    smallest = std::min(smallest, std::abs(value));
+  }
+  const auto magnitude = [](double value) {
+    return static_cast<int>(std::floor(std::log10(value)));
+  };
+  const bool one_scale = largest > 0 && largest < 1e6 && smallest > 1e-4;
+  std::vector<std::string> texts;
+  for (const double value : values) {
+    if (whole || !one_scale || !std::isfinite(value)) {
+      texts.push_back(number_text(value));
+    } else {
+      const int decimals = std::max({0, 2 - magnitude(largest), -magnitude(smallest)});
+      texts.push_back(value == 0 ? "0" : grouped(fmt::format("{:.{}f}", value, decimals)));
+    }
+  }
+  return texts;
 }
 
 std::string count_text(std::uint64_t count) {

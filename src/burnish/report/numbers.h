@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace burnish {
 
@@ -21,6 +23,10 @@ DisplayUnit display_unit(std::string_view si, double size);
 /// Rounded to three significant digits, trailing zeros left out; whole numbers in full;
 /// "–" for what is not finite.
 std::string number_text(double value);
+
+/// Values of one unit side by side: all with the same number of decimals, so that the largest has
+/// three significant digits and the smallest at least one; whole numbers in full.
+std::vector<std::string> row_texts(const std::vector<double>& values);
 
 /// "69 451" with narrow no-break spaces.
 std::string count_text(std::uint64_t count);

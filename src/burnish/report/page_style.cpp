@@ -76,6 +76,7 @@ th, td { text-align: left; padding: 0.34rem 1.5rem 0.34rem 0; border-bottom: 1px
 thead th, thead td { color: var(--soft); font-weight: 600; border-bottom-color: var(--soft); }
 tbody th { font-weight: normal; }
 td.number, td.wrong { font-variant-numeric: tabular-nums; white-space: nowrap; }
+.numbers td, .numbers thead th { text-align: right; padding: 0.34rem 0 0.34rem 1.6rem; }
 td.wrong { color: var(--wrong); font-weight: 700; }
 .steps { width: 100%; }
 .steps tbody th { font-weight: 600; white-space: nowrap; }

@@ -23,10 +23,13 @@ Table::Row row_of(const std::vector<Facts>& facts, const Fact& first) {
   const DisplayUnit unit = display_unit(first.unit, largest);
   Table::Row row{words_of(first.key), {}, {}};
   if (!unit.name.empty()) row.title += ", " + std::string(unit.name);
+  std::vector<double> values;
   for (const Facts& column : facts) {
-    const Fact* fact = find(column, first.key);
-    row.cells.push_back(fact ? number_text(fact->value * unit.factor) : "");
+    if (const Fact* fact = find(column, first.key)) values.push_back(fact->value * unit.factor);
   }
+  const std::vector<std::string> texts = row_texts(values);
+  auto text = texts.begin();
+  for (const Facts& column : facts) row.cells.push_back(find(column, first.key) ? *text++ : "");
   return row;
 }
 
@@ -46,7 +49,7 @@ std::vector<Table::Row> rows_of(const std::vector<Facts>& facts) {
 }
 
 void write_table(HtmlWriter& html, const Table& table) {
-  html.open("div", {{"class", "scroll"}}).open("table");
+  html.open("div", {{"class", "scroll"}}).open("table", {{"class", "numbers"}});
   html.element("caption", table.caption);
   html.open("thead").open("tr").element("td", "");
   for (const std::string& column : table.columns) html.element("th", column, {{"scope", "col"}});

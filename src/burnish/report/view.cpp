@@ -30,12 +30,11 @@ Vec3d world(const TriangleMesh& mesh, std::uint32_t v) {
   return mesh.frame.origin + Vec3d(mesh.positions[v]);
 }
 
-/// The value that `share` of the values do not exceed.
-double quantile(std::vector<double>& values, double share) {
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank),
-                   values.end());
-  return values[rank];
+/// The value that `above` of the values exceed.
+double ranked(std::vector<double>& values, std::size_t above) {
+  const auto at = values.end() - 1 - static_cast<std::ptrdiff_t>(above);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 /// Where a camera must stand on one image axis to see points between its two side planes: the
@@ -50,8 +49,8 @@ Fit fit(const std::vector<Vec3d>& points, double Vec3d::*axis, double slope) {
     high[i] = points[i].*axis - slope * points[i].z;
     low[i] = -(points[i].*axis) - slope * points[i].z;
   }
-  constexpr double kSeen = 0.999;
-  const double h = quantile(high, kSeen), l = quantile(low, kSeen);
+  const std::size_t strays = points.size() / 1000;
+  const double h = ranked(high, strays), l = ranked(low, strays);
   return {(h - l) / 2, -(h + l) / (2 * slope)};
 }
 
@@ -63,7 +62,7 @@ double median_edge_length(const TriangleMesh& mesh) {
       lengths.push_back(norm(Vec3d(mesh.positions[t[k]]) - Vec3d(mesh.positions[t[(k + 1) % 3]])));
     }
   }
-  return lengths.empty() ? 0 : quantile(lengths, 0.5);
+  return lengths.empty() ? 0 : ranked(lengths, lengths.size() / 2);
 }
 
 }  // namespace

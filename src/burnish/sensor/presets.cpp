@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -10,17 +9,6 @@ namespace burnish {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-/// The camera that sees so many radians across and down, its principal point in the middle.
-Camera camera_from_field_of_view(std::uint32_t width, std::uint32_t height, double across,
-                                 double down) {
-  return {width,
-          height,
-          width / 2.0 / std::tan(across / 2),
-          height / 2.0 / std::tan(down / 2),
-          (width - 1) / 2.0,
-          (height - 1) / 2.0};
-}
 
 DepthNoise nguyen_2012() {
   return {.z0 = 0.4,
@@ -61,7 +49,7 @@ constexpr double kKinectBaseline = 0.075;  ///< m
 std::vector<Sensor> make_sensors() {
   return {
       {.name = "kinect_v1",
-       .camera = camera_from_field_of_view(640, 480, 57 * kDegree, 47 * kDegree),
+       .camera = {640, 480, 589.3666835307065, 551.9622113367017, 319.5, 239.5},
        .noise = nguyen_2012(),
        .disparity_step = kKinectStep,
        .projector = kKinectBaseline},
@@ -77,8 +65,7 @@ std::vector<Sensor> make_sensors() {
        .camera = {640, 576, 504, 504, 319.5, 287.5},
        .noise = toelgyessy_2021()},
       {.name = "pinhole",
-       .camera = camera_from_field_of_view(640, 480, 60 * kDegree,
-                                           2 * std::atan(0.75 * std::tan(30 * kDegree))),
+       .camera = {640, 480, 554.2562584220408, 554.2562584220408, 319.5, 239.5},
        .noise = {}},
   };
 }

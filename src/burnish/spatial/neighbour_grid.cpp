@@ -14,6 +14,7 @@ constexpr double kCoarsePointsPerCell = 128;  ///< aimed at in an occupied cell 
 constexpr double kPointsPerCell = 2;          ///< aimed at in an occupied cell of the others
 constexpr std::uint32_t kCrowdedCoarse = 8;   ///< a cell with more points becomes a node
 constexpr std::uint32_t kCrowded = 32;
+constexpr std::size_t kFew = 64;
 
 bool nearer(const Neighbour& a, const Neighbour& b) {
   return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance
@@ -34,26 +35,70 @@ double outside(double x, double low, double high) {
   return std::max({low - x, x - high, 0.0});
 }
 
+/// Sorts few neighbours without branches that depend on them: each goes to the place that the
+/// number of nearer ones gives. Leaves the nearest `wanted`.
+void sort_few(std::vector<Neighbour>& found, std::size_t wanted) {
+  std::array<double, kFew> distance, index;
+  std::array<Neighbour, kFew> sorted;
+  const std::size_t count = found.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    distance[i] = found[i].squared_distance;
+    index[i] = found[i].index;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const double d = distance[i], n = index[i];
+    double place = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+      place += ((distance[j] < d) | ((distance[j] == d) & (index[j] < n))) ? 1.0 : 0.0;
+    }
+    sorted[static_cast<std::size_t>(place)] = found[i];
+  }
+  found.resize(std::min(count, wanted));
+  std::copy_n(sorted.begin(), found.size(), found.begin());
+}
+
+/// Leaves the nearest `wanted`, in no order.
+void keep_nearest(std::vector<Neighbour>& found, std::size_t wanted) {
+  if (found.size() <= wanted) return;
+  const auto last = found.begin() + static_cast<std::ptrdiff_t>(wanted) - 1;
+  std::nth_element(found.begin(), last, found.end(), nearer);
+  found.resize(wanted);
+}
+
+void sort_nearest(std::vector<Neighbour>& found, std::size_t wanted) {
+  if (found.size() <= kFew) return sort_few(found, wanted);
+  keep_nearest(found, wanted);
+  std::sort(found.begin(), found.end(), nearer);
+}
+
 }  // namespace
 
-/// A ball that shrinks once it holds more points than are wanted.
+/// A ball that shrinks once it holds many more points than are wanted.
 struct NeighbourGrid::Search {
   Vec3d centre;
   double radius, squared_radius;
   std::size_t wanted;
-  std::vector<Neighbour>& found;
+  std::vector<Neighbour>& found;  ///< the first `count` are those in the ball
+  std::size_t count = 0;
 
-  Search(const Vec3d& query, double r, std::size_t count, std::vector<Neighbour>& result)
-      : centre(query), radius(r), squared_radius(r * r), wanted(count), found(result) {
-    found.clear();
+  Search(const Vec3d& query, double r, std::size_t nearest, std::vector<Neighbour>& result)
+      : centre(query), radius(r), squared_radius(r * r), wanted(nearest), found(result) {}
+
+  void add(const Point* begin, const Point* end) {
+    const std::size_t room = count + static_cast<std::size_t>(end - begin);
+    if (found.size() < room) found.resize(room);
+    for (const Point* p = begin; p != end; ++p) {
+      const double squared = squared_norm(Vec3d(p->position) - centre);
+      found[count] = {p->index, squared};
+      count += squared <= squared_radius;
+    }
+    if (count / 4 > wanted + 8) shrink();
   }
 
-  /// Leaves the nearest `wanted` points that were found.
-  void trim() {
-    if (found.size() <= wanted) return;
-    const auto last = found.begin() + static_cast<std::ptrdiff_t>(wanted) - 1;
-    std::nth_element(found.begin(), last, found.end(), nearer);
-    found.resize(wanted);
+  void shrink() {
+    found.resize(count);
+    keep_nearest(found, wanted);
+    count = wanted;
     squared_radius = found.back().squared_distance;
     radius = std::sqrt(squared_radius);
   }
@@ -159,11 +204,7 @@ void NeighbourGrid::sort_into_cells(const Node& node, std::uint32_t begin, std::
 }
 
 void NeighbourGrid::scan(std::uint32_t begin, std::uint32_t end, Search& search) const {
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const double squared = squared_norm(Vec3d(points_[i].position) - search.centre);
-    if (squared <= search.squared_radius) search.found.push_back({points_[i].index, squared});
-  }
-  if (search.found.size() / 4 > search.wanted + 8) search.trim();
+  search.add(points_.data() + begin, points_.data() + end);
 }
 
 void NeighbourGrid::visit(std::uint32_t number, Search& search) const {
@@ -247,15 +288,13 @@ void NeighbourGrid::nearest(const Vec3f& query, std::size_t count,
   for (;;) {
     Search search(centre, radius, count, found);
     visit(0, search);
-    if (found.size() >= count) {
-      search.trim();
-      break;
-    }
-    const double missing = static_cast<double>(count) / (static_cast<double>(found.size()) + 0.5);
+    found.resize(search.count);
+    if (search.count >= count) break;
+    const double missing = static_cast<double>(count) / (static_cast<double>(search.count) + 0.5);
     radius *= std::clamp(1.15 * std::sqrt(missing), 1.2, 2.0);
     radius = std::max(radius, static_cast<double>(std::numeric_limits<float>::denorm_min()));
   }
-  std::sort(found.begin(), found.end(), nearer);
+  sort_nearest(found, count);
 }
 
 void NeighbourGrid::within(const Vec3f& query, double radius, std::vector<Neighbour>& found) const {
@@ -263,7 +302,8 @@ void NeighbourGrid::within(const Vec3f& query, double radius, std::vector<Neighb
   if (points_.empty() || !is_finite(query) || !(radius >= 0)) return;
   Search search(Vec3d(query), radius, points_.size(), found);
   visit(0, search);
-  std::sort(found.begin(), found.end(), nearer);
+  found.resize(search.count);
+  sort_nearest(found, search.count);
 }
 
 }  // namespace burnish

@@ -53,19 +53,11 @@ bool ManifoldSurface::add_if_manifold(const Triangle& t) {
 
 /// Whether the link of v may take the edge from `begin` to `end`.
 bool ManifoldSurface::fits(std::uint32_t v, std::uint32_t begin, std::uint32_t end) const {
-  if (!(turn(v, begin, end) > 0)) return false;
   bool free = true;
   std::size_t degree = 0;
-  // Sectors of less than half a turn overlap where one has a side of the other strictly inside, or
-  // where they begin or end alike.
   for_each_link_edge(v, [&](const LinkEdge& link) {
     ++degree;
     free = free && link.begin != begin && link.end != end;
-    const auto inside = [&](std::uint32_t w, std::uint32_t from, std::uint32_t to) {
-      return w != from && w != to && turn(v, from, w) > 0 && turn(v, w, to) > 0;
-    };
-    free = free && !inside(link.begin, begin, end) && !inside(link.end, begin, end) &&
-           !inside(begin, link.begin, link.end) && !inside(end, link.begin, link.end);
   });
   if (!free) return false;
   // The path that leaves `end` may come back to `begin` only as the whole link.
@@ -75,6 +67,27 @@ bool ManifoldSurface::fits(std::uint32_t v, std::uint32_t begin, std::uint32_t e
     if (w == kNone) return true;
   }
   return length == degree;
+}
+
+bool ManifoldSurface::overlaps(const Triangle& t) const {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (overlaps_at(t[i], t[(i + 1) % 3], t[(i + 2) % 3])) return true;
+  }
+  return false;
+}
+
+/// Sectors of less than half a turn overlap where one has a side of the other strictly inside.
+bool ManifoldSurface::overlaps_at(std::uint32_t v, std::uint32_t begin, std::uint32_t end) const {
+  if (!(turn(v, begin, end) > 0)) return true;
+  const auto inside = [&](std::uint32_t w, std::uint32_t from, std::uint32_t to) {
+    return w != from && w != to && turn(v, from, w) > 0 && turn(v, w, to) > 0;
+  };
+  bool overlap = false;
+  for_each_link_edge(v, [&](const LinkEdge& link) {
+    overlap = overlap || inside(link.begin, begin, end) || inside(link.end, begin, end) ||
+              inside(begin, link.begin, link.end) || inside(end, link.begin, link.end);
+  });
+  return overlap;
 }
 
 void ManifoldSurface::remove(std::uint32_t triangle) {
@@ -88,61 +101,71 @@ void ManifoldSurface::remove(std::uint32_t triangle) {
   t = {kNone, kNone, kNone};
 }
 
-void ManifoldSurface::corners(std::uint32_t v, std::vector<Corner>& found) const {
-  found.clear();
-  // Ends of the paths: `to` has no successor, `from` no predecessor.
-  std::vector<std::uint32_t> from, to;
+/// The ends of the paths in the link of v: those without a predecessor, those without a successor;
+/// each rising.
+void ManifoldSurface::ends(std::uint32_t v, std::vector<std::uint32_t>& begins,
+                           std::vector<std::uint32_t>& ends) const {
+  begins.clear();
+  ends.clear();
   for_each_link_edge(v, [&](const LinkEdge& link) {
-    if (successor(v, link.end) == kNone) to.push_back(link.end);
-    bool preceded = false;
-    for_each_link_edge(v, [&](const LinkEdge& other) { preceded |= other.end == link.begin; });
-    if (!preceded) from.push_back(link.begin);
+    begins.push_back(link.begin);
+    ends.push_back(link.end);
   });
-  if (to.size() == 1) {
-    found.push_back({v, from[0], to[0]});
-    return;
-  }
-  std::sort(to.begin(), to.end());
-  std::sort(from.begin(), from.end());
-  for (const std::uint32_t end : to) {
-    // The first beginning counter-clockwise of the end: half turns first, then by cross product.
-    const auto sooner = [&](std::uint32_t a, std::uint32_t b) {
-      const bool left_a = turn(v, end, a) > 0, left_b = turn(v, end, b) > 0;
-      return left_a != left_b ? left_a : turn(v, a, b) > 0;
-    };
-    std::size_t first = 0;
-    for (std::size_t i = 1; i < from.size(); ++i) {
-      if (sooner(from[i], from[first])) first = i;
+  std::sort(begins.begin(), begins.end());
+  std::sort(ends.begin(), ends.end());
+  // What is in both lists is inside a path.
+  auto kept_begin = begins.begin(), kept_end = ends.begin();
+  auto b = begins.begin(), e = ends.begin();
+  while (b != begins.end() || e != ends.end()) {
+    if (e == ends.end() || (b != begins.end() && *b < *e)) {
+      *kept_begin++ = *b++;
+    } else if (b == begins.end() || *e < *b) {
+      *kept_end++ = *e++;
+    } else {
+      ++b, ++e;
     }
-    found.push_back({v, from[first], end});
-    from.erase(from.begin() + static_cast<std::ptrdiff_t>(first));
   }
+  begins.erase(kept_begin, begins.end());
+  ends.erase(kept_end, ends.end());
+}
+
+std::vector<ManifoldSurface::Corner> ManifoldSurface::corners() const {
+  std::vector<Corner> found;
+  std::vector<std::uint32_t> from, to;
+  for (std::uint32_t v = 0; v < first_corner_.size(); ++v) {
+    ends(v, from, to);
+    for (const std::uint32_t end : to) {
+      // The first beginning counter-clockwise of the end: half turns first, then by cross product.
+      const auto sooner = [&](std::uint32_t a, std::uint32_t b) {
+        const bool left_a = turn(v, end, a) > 0, left_b = turn(v, end, b) > 0;
+        return left_a != left_b ? left_a : turn(v, a, b) > 0;
+      };
+      std::size_t first = 0;
+      for (std::size_t i = 1; i < from.size(); ++i) {
+        if (sooner(from[i], from[first])) first = i;
+      }
+      found.push_back({v, from[first], end});
+      from.erase(from.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+  }
+  return found;
 }
 
 void ManifoldSurface::paths(std::uint32_t v, std::vector<std::vector<std::uint32_t>>& found) const {
-  found.clear();
-  std::vector<LinkEdge> links;
-  for_each_link_edge(v, [&](const LinkEdge& link) { links.push_back(link); });
-  std::sort(links.begin(), links.end(),
-            [](const LinkEdge& a, const LinkEdge& b) { return a.begin < b.begin; });
-  std::vector<bool> taken(links.size(), false);
-  const auto take = [&](std::uint32_t end, bool forward, std::vector<std::uint32_t>& path) {
+  std::vector<std::uint32_t> begins, stops;
+  ends(v, begins, stops);
+  found.assign(begins.size(), {});
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    std::uint32_t at = begins[i];
     for (bool moved = true; moved;) {
       moved = false;
-      for (std::size_t i = 0; i < links.size(); ++i) {
-        if (taken[i] || (forward ? links[i].begin : links[i].end) != end) continue;
-        taken[i] = moved = true;
-        path.push_back(links[i].corner / 3);
-        end = forward ? links[i].end : links[i].begin;
-      }
+      for_each_link_edge(v, [&](const LinkEdge& link) {
+        if (moved || link.begin != at) return;
+        found[i].push_back(link.corner / 3);
+        at = link.end;
+        moved = true;
+      });
     }
-  };
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (taken[i]) continue;
-    taken[i] = true;
-    found.push_back({links[i].corner / 3});
-    take(links[i].end, true, found.back());
-    take(links[i].begin, false, found.back());
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });

@@ -25,21 +25,24 @@ class ManifoldSurface {
   /// Adds `t` without asking; the caller knows that it fits.
   void add(const Triangle& t);
 
-  /// Adds `t` where the three directed edges are free, where at no corner it lies over triangles
-  /// that are there (seen along the corner's normal), and where every link stays a set of paths or
-  /// one cycle. O(valence).
+  /// Adds `t` where its three directed edges are free and every link stays a set of paths or one
+  /// cycle. O(valence).
   bool add_if_manifold(const Triangle& t);
+
+  /// Whether `t` folds back at a corner or lies over a triangle that is there, seen along the
+  /// corner's normal. O(valence).
+  bool overlaps(const Triangle& t) const;
 
   void remove(std::uint32_t triangle);
 
   /// Whether some triangle has the edge from a to b in this direction.
   bool has_edge(std::uint32_t a, std::uint32_t b) const { return successor(a, b) != kNone; }
 
-  /// The gaps around `v`, by angle where there are several; none for an inner or unused vertex.
-  void corners(std::uint32_t v, std::vector<Corner>& found) const;
+  /// The gaps around all vertices, vertex by vertex; none for inner and unused vertices.
+  std::vector<Corner> corners() const;
 
-  /// The triangles of `v`, path by path of its link, longest first (of equally long ones that which
-  /// holds the smallest index); more than one path: the surface is pinched at `v`.
+  /// The triangles of each path of the link of `v`, from its beginning; the longest path first, of
+  /// equally long ones that which begins with the smallest index. For a vertex that has corners.
   void paths(std::uint32_t v, std::vector<std::vector<std::uint32_t>>& found) const;
 
   /// The triangles that were not removed, in the order of insertion.
@@ -56,7 +59,10 @@ class ManifoldSurface {
   template <class Visit>
   void for_each_link_edge(std::uint32_t v, Visit visit) const;
   std::uint32_t successor(std::uint32_t v, std::uint32_t w) const;
+  void ends(std::uint32_t v, std::vector<std::uint32_t>& begins,
+            std::vector<std::uint32_t>& ends) const;
   bool fits(std::uint32_t v, std::uint32_t begin, std::uint32_t end) const;
+  bool overlaps_at(std::uint32_t v, std::uint32_t begin, std::uint32_t end) const;
   /// Positive where w2 is less than half a turn counter-clockwise from w1 around v.
   double turn(std::uint32_t v, std::uint32_t w1, std::uint32_t w2) const;
 

@@ -11,16 +11,16 @@ namespace {
 using Corner = ManifoldSurface::Corner;
 using Loop = std::vector<std::uint32_t>;
 
+/// How many times worse a triangle is for each corner whose normal it turns away from.
+constexpr double kFoldPenalty = 8;
+
 /// The boundary loops of three to `max_edges` different vertices, each from its smallest corner,
 /// with the gap on the left.
 std::vector<Loop> small_loops(const ManifoldSurface& surface, std::size_t max_edges) {
-  std::vector<Corner> corners, here;
+  const std::vector<Corner> corners = surface.corners();
   std::vector<std::uint32_t> first(surface.vertex_count() + 1, 0);
-  for (std::uint32_t v = 0; v < surface.vertex_count(); ++v) {
-    surface.corners(v, here);
-    corners.insert(corners.end(), here.begin(), here.end());
-    first[v + 1] = static_cast<std::uint32_t>(corners.size());
-  }
+  for (const Corner& corner : corners) ++first[corner.vertex + 1];
+  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
   std::vector<Loop> loops;
   std::vector<bool> seen(corners.size(), false);
   for (std::uint32_t start = 0; start < corners.size(); ++start) {
@@ -76,10 +76,14 @@ class LoopTriangulation {
   double cost(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const Vec3d p(positions_[a]), q(positions_[b]), r(positions_[c]);
     const Vec3d area = cross(q - p, r - p);
+    double facing = 0, fold = 1;
     for (const std::uint32_t v : {a, b, c}) {
-      if (!(dot(area, Vec3d(normals_[v])) > 0)) return std::numeric_limits<double>::infinity();
+      const double along = dot(area, Vec3d(normals_[v]));
+      facing += along;
+      if (!(along > 0)) fold *= kFoldPenalty;
     }
-    return (squared_norm(q - p) + squared_norm(r - q) + squared_norm(p - r)) / norm(area);
+    if (!(facing > 0)) return std::numeric_limits<double>::infinity();
+    return fold * (squared_norm(q - p) + squared_norm(r - q) + squared_norm(p - r)) / norm(area);
   }
 
   void collect(const Loop& loop, std::size_t i, std::size_t k,

@@ -1,0 +1,189 @@
+#include "burnish/measure/truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "burnish/base/parallel.h"
+#include "burnish/base/random.h"
+#include "burnish/measure/histogram.h"
+#include "burnish/spatial/closest_point.h"
+
+namespace burnish {
+namespace {
+
+struct Sample {
+  Vec3d point;
+  std::uint32_t triangle;
+};
+
+/// The sums of the areas up to and including each triangle.
+std::vector<double> area_sums(const TriangleMesh& mesh) {
+  std::vector<double> sums(mesh.triangles.size());
+  double sum = 0;
+  for (std::size_t t = 0; t < sums.size(); ++t) sums[t] = sum += norm(area_vector(mesh, t));
+  return sums;
+}
+
+/// One point in each of `count` equal parts of the surface, laid triangle after triangle.
+std::vector<Sample> samples_on(const TriangleMesh& mesh, std::size_t count) {
+  const std::vector<double> sums = area_sums(mesh);
+  std::vector<Sample> samples(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Random random(1, i);
+    const double at = (static_cast<double>(i) + random.uniform()) / static_cast<double>(count);
+    const auto found = std::upper_bound(sums.begin(), sums.end() - 1, at * sums.back());
+    const auto t = static_cast<std::uint32_t>(found - sums.begin());
+    double u = random.uniform(), v = random.uniform();
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
+    }
+    const auto [a, b, c] = mesh.triangles[t];
+    const Vec3d p(mesh.positions[a]);
+    samples[i] = {p + u * (Vec3d(mesh.positions[b]) - p) + v * (Vec3d(mesh.positions[c]) - p), t};
+  }
+  return samples;
+}
+
+Distances summary(std::vector<double> distances) {
+  Distances result;
+  result.count = distances.size();
+  if (distances.empty()) return result;
+  double sum = 0, squares = 0;
+  for (const double d : distances) {
+    sum += d;
+    squares += d * d;
+    result.max = std::max(result.max, d);
+  }
+  const auto count = static_cast<double>(distances.size());
+  result.mean = sum / count;
+  result.rms = std::sqrt(squares / count);
+  result.p95 = quantile(distances, 0.95);
+  return result;
+}
+
+double angle_between(const Vec3d& a, const Vec3d& b) {
+  return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
+/// Whether the mesh can be measured against: sound, and not without area.
+Result<void> check_surface(const TriangleMesh& mesh, std::string_view name) {
+  if (auto sound = check(mesh); !sound) {
+    return Error{sound.error().code, sound.error().message, std::string(name)};
+  }
+  const std::vector<double> sums = area_sums(mesh);
+  if (sums.empty() || !(sums.back() > 0)) {
+    return Error{ErrorCode::bad_geometry, "a surface with an area expected", std::string(name)};
+  }
+  return {};
+}
+
+/// found(i) is told what is closest to point(i).
+template <class PointOf, class Tell>
+bool find_all(const Context& context, std::size_t count, const ClosestPoint& surface, PointOf point,
+              Tell found) {
+  return parallel_for(
+      context, count,
+      [&](IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) found(i, surface(point(i)));
+      },
+      512);
+}
+
+}  // namespace
+
+Result<TruthComparison> compare_to_truth(const TriangleMesh& mesh, const TriangleMesh& truth,
+                                         const TruthParams& params, const Context& context) {
+  if (params.samples < 1 || params.samples > 100'000'000) {
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("samples = {}, 1 to 100000000 expected", params.samples),
+                 {}};
+  }
+  if (auto sound = check_surface(mesh, "mesh"); !sound) return sound.error();
+  if (auto sound = check_surface(truth, "truth"); !sound) return sound.error();
+  const ClosestPoint on_mesh(mesh), on_truth(truth);
+  const Vec3d shift =
+      mesh.frame.origin - truth.frame.origin;  // from the mesh's frame to the truth's
+  const auto count = static_cast<std::size_t>(params.samples);
+
+  TruthComparison result;
+  const std::vector<Sample> samples = samples_on(mesh, count);
+  std::vector<double> distances(count), angles(count);
+  bool complete = find_all(
+      context.part(0, 0.4), count, on_truth,
+      [&](std::size_t i) { return samples[i].point + shift; },
+      [&](std::size_t i, const ClosestPoint::Found& found) {
+        distances[i] = found.distance;
+        angles[i] = angle_between(area_vector(mesh, samples[i].triangle),
+                                  area_vector(truth, found.triangle));
+      });
+  if (!complete) return cancelled();
+  result.to_truth = summary(distances);
+  result.mean_normal_error = summary(angles).mean;
+
+  std::vector<double> of_vertices(mesh.positions.size());
+  complete = find_all(
+      context.part(0.4, 0.6), of_vertices.size(), on_truth,
+      [&](std::size_t v) { return Vec3d(mesh.positions[v]) + shift; },
+      [&](std::size_t v, const ClosestPoint::Found& found) { of_vertices[v] = found.distance; });
+  if (!complete) return cancelled();
+  result.vertices = summary(std::move(of_vertices));
+
+  const std::vector<Sample> true_samples = samples_on(truth, count);
+  complete = find_all(
+      context.part(0.6, 1), count, on_mesh,
+      [&](std::size_t i) { return true_samples[i].point - shift; },
+      [&](std::size_t i, const ClosestPoint::Found& found) { distances[i] = found.distance; });
+  if (!complete) return cancelled();
+  result.from_truth = summary(std::move(distances));
+  return result;
+}
+
+Result<Distances> compare_to_truth(const PointCloud& cloud, const TriangleMesh& truth,
+                                   const Context& context) {
+  if (auto sound = check(cloud); !sound) return sound.error();
+  if (auto sound = check_surface(truth, "truth"); !sound) return sound.error();
+  const PointCloud points = without_missing(cloud);
+  const ClosestPoint on_truth(truth);
+  const Vec3d shift = cloud.frame.origin - truth.frame.origin;
+  std::vector<double> distances(points.positions.size());
+  const bool complete = find_all(
+      context, distances.size(), on_truth,
+      [&](std::size_t i) { return Vec3d(points.positions[i]) + shift; },
+      [&](std::size_t i, const ClosestPoint::Found& found) { distances[i] = found.distance; });
+  if (!complete) return cancelled();
+  return summary(std::move(distances));
+}
+
+double TruthComparison::hausdorff() const {
+  return std::max({to_truth.max, vertices.max, from_truth.max});
+}
+
+Facts Distances::facts() const {
+  return {{"count", static_cast<double>(count), ""},
+          {"rms", rms, "m"},
+          {"mean", mean, "m"},
+          {"p95", p95, "m"},
+          {"max", max, "m"}};
+}
+
+Facts TruthComparison::facts() const {
+  Facts all;
+  const auto add = [&all](const std::string& prefix, const Distances& distances) {
+    for (Fact fact : distances.facts()) {
+      fact.key = prefix + fact.key;
+      all.push_back(std::move(fact));
+    }
+  };
+  add("to_truth_", to_truth);
+  add("vertices_", vertices);
+  add("from_truth_", from_truth);
+  all.push_back({"hausdorff", hausdorff(), "m"});
+  all.push_back({"mean_normal_error", mean_normal_error, "rad"});
+  return all;
+}
+
+}  // namespace burnish

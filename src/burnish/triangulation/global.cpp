@@ -1,0 +1,129 @@
+#include "burnish/triangulation/global.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "burnish/core/gather.h"
+#include "burnish/points/normals.h"
+#include "burnish/triangulation/local_fans.h"
+#include "burnish/triangulation/manifold_surface.h"
+#include "burnish/triangulation/point_order.h"
+#include "burnish/triangulation/small_holes.h"
+#include "burnish/triangulation/used_points.h"
+#include "burnish/triangulation/vote.h"
+
+namespace burnish {
+namespace {
+
+/// Sorts what not all fans agree on to the order in which it is tried.
+void sort_doubtful(std::vector<Candidate>& doubtful) {
+  std::sort(doubtful.begin(), doubtful.end(), [](const Candidate& a, const Candidate& b) {
+    if (a.votes != b.votes) return a.votes > b.votes;
+    return a.shape != b.shape ? a.shape > b.shape : a.triangle < b.triangle;
+  });
+}
+
+/// Three fans that agree on triangles never contradict each other: in a vertex's fan every
+/// neighbour has one successor. The others are taken where they fit.
+void insert_candidates(const std::vector<Candidate>& candidates, ManifoldSurface& surface) {
+  std::vector<Candidate> doubtful;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.votes == 3) {
+      surface.add(candidate.triangle);
+    } else {
+      doubtful.push_back(candidate);
+    }
+  }
+  sort_doubtful(doubtful);
+  for (const Candidate& candidate : doubtful) {
+    if (!surface.overlaps(candidate.triangle)) surface.add_if_manifold(candidate.triangle);
+  }
+}
+
+/// Leaves every vertex one fan, its largest.
+void separate_pinched_vertices(ManifoldSurface& surface) {
+  std::vector<std::vector<std::uint32_t>> paths;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const ManifoldSurface::Corner& corner : surface.corners()) {
+      surface.paths(corner.vertex, paths);
+      for (std::size_t i = 1; i < paths.size(); ++i) {
+        for (const std::uint32_t triangle : paths[i]) surface.remove(triangle);
+        changed = true;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+const Schema<GlobalParams>& GlobalParams::schema() {
+  using P = GlobalParams;
+  static const auto schema =
+      Schema<P>()
+          .integer("neighbours", &P::neighbours, between(3, 1000),
+                   "neighbours that a fan begins with; doubled while they do not suffice")
+          .integer("most_neighbours", &P::most_neighbours, between(3, 10000),
+                   "neighbours that a fan looks at at most")
+          .real("sheet_angle", &P::sheet_angle, between(0, std::numbers::pi),
+                "neighbours whose normals are further apart are on another sheet", Quantity::angle)
+          .real("max_gap", &P::max_gap, more_than(0),
+                "widest circumscribed circle, relative to the distance of the eighth neighbour")
+          .integer("hole_edges", &P::hole_edges, between(0, 100),
+                   "boundary loops of at most so many edges are closed");
+  return schema;
+}
+
+Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalParams& params,
+                                         const Context& context) {
+  if (auto valid = GlobalParams::schema().check(params); !valid) return valid.error();
+  if (auto sound = check(cloud); !sound) return sound.error();
+
+  context.stage("ordering points");
+  const std::vector<std::uint32_t> order = order_along_curve(cloud.positions);
+  const PointCloud ordered = select(cloud, order);
+  std::vector<Vec3f> normals = ordered.attributes.normals;
+  context.stage("estimating normals");
+  if (normals.empty() && !ordered.positions.empty()) {
+    PointCloud estimated = ordered;
+    if (auto done = estimate_normals(estimated, {}, context.part(0, 0.3)); !done)
+      return done.error();
+    normals = std::move(estimated.attributes.normals);
+  }
+
+  context.stage("building fans");
+  const NeighbourGrid grid(ordered.positions);
+  const FanRule rule{.first_neighbours = static_cast<std::size_t>(params.neighbours),
+                     .most_neighbours = static_cast<std::size_t>(
+                         std::max(params.most_neighbours, params.neighbours)),
+                     .cos_sheet_angle = std::cos(params.sheet_angle),
+                     .reach = params.max_gap};
+  Fans fans;
+  std::vector<Candidate> candidates;
+  if (!build_fans(ordered.positions, normals, grid, rule, context.part(0.3, 0.7), fans) ||
+      !count_votes(ordered.positions, normals, fans, params.max_gap, context.part(0.7, 0.8),
+                   candidates)) {
+    return cancelled();
+  }
+
+  context.stage("inserting triangles");
+  ManifoldSurface surface(ordered.positions, normals);
+  insert_candidates(candidates, surface);
+  context.stage("closing holes");
+  const auto hole_edges = static_cast<std::size_t>(params.hole_edges);
+  std::size_t invented = close_small_holes(surface, ordered.positions, normals, hole_edges);
+  separate_pinched_vertices(surface);
+  invented += close_small_holes(surface, ordered.positions, normals, hole_edges);
+
+  context.stage("copying");
+  std::vector<Triangle> triangles = surface.triangles();
+  for (Triangle& t : triangles) t = {order[t[0]], order[t[1]], order[t[2]]};
+  Triangulation result = mesh_of_used_points(cloud, std::move(triangles));
+  result.report.invented_triangles = invented;
+  context.progress(1);
+  return result;
+}
+
+}  // namespace burnish
