@@ -113,15 +113,14 @@ Measurement CloudMeasurements::read(std::size_t list, std::size_t i) const {
   m.position = p + view.shift;
   m.normal = cloud.attributes.normals[i];
   if (!cloud.attributes.observations.empty()) m.count = cloud.attributes.observations[i];
-  const double s = sigma(list, i), d = deviation(s);
-  m.weight = 1 / (d * d);
+  const double s = sigma(list, i);
+  m.weight = 1 / (deviation(s) * deviation(s));
   m.information = 1 / (s * s);
   if (view.pitch > 0) {
     const Vec3d ray = p - view.eye;
-    const double footprint = view.pitch * norm(ray);
     const double facing = std::abs(dot(normalized(ray), Vec3d(m.normal)));
-    const double in_patch =
-        weighing_.spacing * weighing_.spacing * facing / (footprint * footprint);
+    const double footprint = view.pitch * norm(ray);
+    const double in_patch = weighing_.spacing * weighing_.spacing * facing / (footprint * footprint);
     m.information /= 1 + std::max(0.0, in_patch - 1) * weighing_.correlation;
   }
   return m;

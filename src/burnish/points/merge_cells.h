@@ -12,7 +12,7 @@ struct MergeCellsParams {
   double spacing = 0;        ///< m; 0: twice the median distance between neighbouring rays
   double registration = 0;   ///< how far poses are off, one standard deviation, m; 0: estimated
   double correlation = 0.5;  ///< of the noise of neighbouring pixels of one image
-  int min_observations = 1;  ///< points that fewer measurements support are left out
+  int min_observations = 3;  ///< points that fewer measurements support are left out
 
   static const Schema<MergeCellsParams>& schema();
 };
