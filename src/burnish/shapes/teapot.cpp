@@ -102,15 +102,27 @@ Vec3d on_patch(const Patch& patch, double across, double along) {
 
 class TeapotBuilder {
  public:
-  explicit TeapotBuilder(int cells) : cells_(cells) {}
+  explicit TeapotBuilder(int cells_per_patch) : cells_(std::max(cells_per_patch, 2)) {
+    add(kRim);
+    add(kUpperBody);
+    add(kLowerBody);
+    add(kUpperHandle);
+    add(kLowerHandle);
+    add(kLowerSpout);
+    add(kUpperSpout);
+    add(kKnob);
+    add(kLid);
+    add(kBottom);
+  }
 
+  const std::vector<Vec3d>& points() const { return points_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+ private:
   template <class Part>
   void add(const Part& part) {
     for (const Patch& patch : patches_of(part)) add_patch(patch);
   }
-  TriangleMesh take() { return std::move(mesh_); }
-
- private:
   void add_patch(const Patch& patch) {
     for (int i = 0; i < cells_; ++i) {
       for (int j = 0; j < cells_; ++j) {
@@ -129,35 +141,33 @@ class TeapotBuilder {
   /// points are equal to the last bit.
   std::uint32_t vertex(const Vec3d& p) {
     const auto [it, added] =
-        known_.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(mesh_.positions.size()));
-    if (added) mesh_.positions.push_back(Vec3f(p + Vec3d{}));  // + 0 makes a -0 positive
+        known_.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(points_.size()));
+    if (added) points_.push_back(p + Vec3d{});  // + 0 makes a -0 positive
     return it->second;
   }
 
   void add_triangle(const Triangle& t) {
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh_.triangles.push_back(t);
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles_.push_back(t);
   }
 
   int cells_;
-  TriangleMesh mesh_;
+  std::vector<Vec3d> points_;
+  std::vector<Triangle> triangles_;
   std::map<std::array<double, 3>, std::uint32_t> known_;
 };
 
 }  // namespace
 
 TriangleMesh make_teapot(int cells_per_patch) {
-  TeapotBuilder teapot(std::max(cells_per_patch, 2));
-  teapot.add(kRim);
-  teapot.add(kUpperBody);
-  teapot.add(kLowerBody);
-  teapot.add(kUpperHandle);
-  teapot.add(kLowerHandle);
-  teapot.add(kLowerSpout);
-  teapot.add(kUpperSpout);
-  teapot.add(kKnob);
-  teapot.add(kLid);
-  teapot.add(kBottom);
-  return teapot.take();
+  const TeapotBuilder teapot(cells_per_patch);
+  TriangleMesh mesh;
+  mesh.triangles = teapot.triangles();
+  for (const Vec3d& p : teapot.points()) mesh.positions.push_back(Vec3f(p));
+  return mesh;
+}
+
+std::vector<Vec3d> teapot_points(int cells_per_patch) {
+  return TeapotBuilder(cells_per_patch).points();
 }
 
 }  // namespace burnish

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "burnish/core/triangle_mesh.h"
 
 namespace burnish {
@@ -14,5 +16,8 @@ namespace burnish {
 /// oriented outwards but, as Newell's is, not closed: the lid lies loose in the rim, handle and
 /// spout end open inside the body, and one end of the handle touches the body in a single vertex.
 TriangleMesh make_teapot(int cells_per_patch = 6);
+
+/// The positions of make_teapot before they are rounded to float.
+std::vector<Vec3d> teapot_points(int cells_per_patch = 6);
 
 }  // namespace burnish
