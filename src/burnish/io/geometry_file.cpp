@@ -52,6 +52,21 @@ const FileFormat* format_of(std::string_view bytes, const FileFormat* by_extensi
   return by_extension;
 }
 
+/// Passes on only what rises: readers may go through a file more than once.
+class RisingProgress : public ProgressSink {
+ public:
+  explicit RisingProgress(const Context& context) : context_(context) {}
+  void on_progress(double fraction) override {
+    if (fraction <= highest_) return;
+    highest_ = fraction;
+    context_.progress(fraction);
+  }
+
+ private:
+  const Context& context_;
+  double highest_ = 0;
+};
+
 Result<GeometryFile> parse(const fs::path& path, std::string_view bytes, const Context& context) {
   const std::string name = path.string();
   if (bytes.empty()) return Error{ErrorCode::bad_file, "the file is empty", name};
@@ -65,7 +80,12 @@ Result<GeometryFile> parse(const fs::path& path, std::string_view bytes, const C
         ErrorCode::unsupported,
         "neither content nor extension is of a known format (" + all_extensions(false) + ")", name};
   }
-  auto file = format->read(bytes, name, context);
+  RisingProgress progress(context);
+  Context inner;
+  inner.stop = context.stop;
+  inner.sink = &progress;
+  auto file = format->read(bytes, name, inner);
+  if (file) inner.progress(1);
   if (file && by_extension && by_extension != format) {
     file->notes.push_back(
         fmt::format("the content is {}, whatever the extension says", format->name));
@@ -231,9 +251,7 @@ Result<GeometryFile> read_geometry(const fs::path& path, const Context& context)
   const auto bytes = read_file(path);
   if (!bytes) return bytes.error();
   try {
-    auto file = parse(path, bytes->text(), context);
-    if (file) context.progress(1);
-    return file;
+    return parse(path, bytes->text(), context);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::out_of_memory, "the file does not fit into memory", path.string()};
   }

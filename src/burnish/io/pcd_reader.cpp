@@ -56,7 +56,11 @@ class PcdReader {
  public:
   PcdReader(std::string_view bytes, const std::string& name, const Vec3d& origin,
             const Context& context)
-      : cursor_(bytes, name, kStyle), origin_(origin), context_(context), size_(bytes.size()) {}
+      : bytes_(bytes),
+        cursor_(bytes, name, kStyle),
+        origin_(origin),
+        context_(context),
+        size_(bytes.size()) {}
 
   Result<GeometryFile> read();
   bool wide() const { return wide_; }
@@ -72,6 +76,11 @@ class PcdReader {
   Result<void> read_ascii(VertexColumns& columns);
   Result<void> read_binary(VertexColumns& columns);
   Result<void> read_compressed(VertexColumns& columns);
+  /// Writers that map the file fill its last page with zeros.
+  bool only_zeros_left() const {
+    const std::string_view rest = bytes_.substr(cursor_.offset());
+    return rest.find_first_not_of('\0') == std::string_view::npos;
+  }
   bool keep_going() {
     context_.progress(static_cast<double>(cursor_.offset()) / static_cast<double>(size_));
     return !context_.cancelled();
@@ -82,6 +91,7 @@ class PcdReader {
     std::size_t field_offset, field;  ///< of the field in a row; which field
   };
 
+  std::string_view bytes_;
   Cursor cursor_;
   Vec3d origin_;
   const Context& context_;
@@ -350,11 +360,9 @@ Result<GeometryFile> PcdReader::read() {
     const bool usual = v == std::array<double, 7>{0, 0, 0, 1, 0, 0, 0};
     if (file_.grid || !usual) file_.viewpoint = Vec3d{v[0], v[1], v[2]};
   }
-  if (header_.data != "ascii" && !cursor_.at_end()) {
+  if (header_.data == "ascii" ? cursor_.next_filled_line() : !only_zeros_left()) {
     file_.notes.push_back(
         fmt::format("{} bytes after the last point are left out", cursor_.remaining()));
-  } else if (header_.data == "ascii" && cursor_.next_filled_line()) {
-    file_.notes.push_back("lines after the last point are left out");
   }
   return std::move(file_);
 }

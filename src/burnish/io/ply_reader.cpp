@@ -107,6 +107,8 @@ class PlyReader {
   template <class Scanner>
   Result<void> skip_element(Scanner scan, const PlyElement& element);
   template <class Scanner>
+  Result<void> walk_over(Scanner scan, const PlyElement& element);
+  template <class Scanner>
   Result<void> read_element(Scanner scan, const PlyElement& element);
   std::size_t read_triangle_run(const PlyElement& element, std::size_t corners, std::size_t most);
 
@@ -117,6 +119,7 @@ class PlyReader {
   PlyHeader header_;
   GeometryFile file_;
   bool has_vertices_ = false, wide_ = false;
+  std::vector<std::pair<Cursor, const PlyElement*>> deferred_;  ///< faces before the vertices
 };
 
 /// A count is a claim: a row takes at least so many bytes, in a text two per number.
@@ -139,7 +142,7 @@ Result<void> PlyReader::read_vertices(const PlyElement& element) {
   std::vector<Field> fields;
   for (const PlyProperty& p : element.properties) {
     if (p.list_count) {
-      file_.notes.push_back("the list '" + p.name + "' of the vertices is left out");
+      file_.notes.push_back("the list '" + shown(p.name) + "' of the vertices is left out");
     } else {
       fields.push_back({p.name, p.type});
     }
@@ -248,13 +251,14 @@ Result<void> PlyReader::read_faces(Scanner scan, const PlyElement& element) {
         return p.list_count && (p.name == "vertex_indices" || p.name == "vertex_index");
       });
   if (indices == element.properties.end()) return skip_element(scan, element);
-  if (!has_vertices_) {
-    return cursor_.byte_error("'" + element.name + "' comes before 'vertex'",
-                              ErrorCode::unsupported);
+  if (!has_vertices_) {  // come back when the vertices are known
+    deferred_.emplace_back(cursor_, &element);
+    return walk_over(scan, element);
   }
   for (const PlyProperty& p : element.properties) {
     if (&p != &*indices)
-      file_.notes.push_back("the property '" + p.name + "' of '" + element.name + "' is left out");
+      file_.notes.push_back("the property '" + shown(p.name) + "' of '" + element.name +
+                            "' is left out");
   }
   const auto corners_at = static_cast<std::size_t>(indices - element.properties.begin());
   const bool one_list =
@@ -314,7 +318,12 @@ Result<void> PlyReader::read_faces(Scanner scan, const PlyElement& element) {
 template <class Scanner>
 Result<void> PlyReader::skip_element(Scanner scan, const PlyElement& element) {
   file_.notes.push_back(
-      fmt::format("the element '{}' ({} rows) is left out", element.name, element.count));
+      fmt::format("the element '{}' ({} rows) is left out", shown(element.name), element.count));
+  return walk_over(scan, element);
+}
+
+template <class Scanner>
+Result<void> PlyReader::walk_over(Scanner scan, const PlyElement& element) {
   if (element.properties.empty()) return {};
   for (std::size_t row = 0; row < element.count; ++row) {
     if (row % kBlockRows == 0 && !keep_going()) return cancelled();
@@ -342,17 +351,24 @@ Result<GeometryFile> PlyReader::read() {
   if (!header) return header.error();
   header_ = std::move(*header);
   if (header_.facts.frame_origin) origin_ = *header_.facts.frame_origin;
+  const auto read_any = [&](const PlyElement& element) {
+    return header_.ascii ? read_element(TextScanner{cursor_}, element)
+                         : read_element(BinaryScanner{cursor_, header_.order}, element);
+  };
   for (const PlyElement& element : header_.elements) {
     if (auto ok = check_claim(element); !ok) return ok.error();
-    auto ok = header_.ascii ? read_element(TextScanner{cursor_}, element)
-                            : read_element(BinaryScanner{cursor_, header_.order}, element);
-    if (!ok) return ok.error();
+    if (auto ok = read_any(element); !ok) return ok.error();
   }
   if (!has_vertices_) return cursor_.byte_error("the file has no element 'vertex'");
   const bool more = header_.ascii ? cursor_.next_filled_line() : !cursor_.at_end();
-  if (more)
+  if (more) {
     file_.notes.push_back(
         fmt::format("{} bytes after the last element are left out", cursor_.remaining()));
+  }
+  for (const auto& [place, element] : deferred_) {
+    cursor_ = place;
+    if (auto ok = read_any(*element); !ok) return ok.error();
+  }
   file_.grid = header_.facts.grid;
   file_.viewpoint = header_.facts.viewpoint;
   return std::move(file_);

@@ -62,7 +62,7 @@ VertexColumns::VertexColumns(std::vector<Field> fields, std::size_t expected, co
     for (std::size_t j = 0; j < i && !taken_[i]; ++j) {
       if (fields_[j].name != fields_[i].name) continue;
       taken_[i] = true;
-      notes_.push_back("the second field named '" + fields_[i].name + "' is left out");
+      notes_.push_back("the second field named '" + shown(fields_[i].name) + "' is left out");
     }
   }
   add_positions();
@@ -236,7 +236,7 @@ void VertexColumns::add_channels() {
       using From = decltype(zero);
       using T = std::conditional_t<sizeof(From) == 8, double, From>;
       if constexpr (sizeof(From) == 8 && std::is_integral_v<From>) {
-        notes_.push_back("the 64-bit integers of '" + field.name + "' are kept as doubles");
+        notes_.push_back("the 64-bit integers of '" + shown(field.name) + "' are kept as doubles");
       }
       auto& values = attributes_.channels[c].values.template emplace<std::vector<T>>();
       values.reserve(expected_);

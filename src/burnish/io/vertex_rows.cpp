@@ -102,17 +102,19 @@ VertexRows::VertexRows(const GeometryView& view, FieldNames names) : view_(view)
 Result<void> VertexRows::check() const {
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const std::string& name = fields_[i].name;
-    const bool word = !name.empty() && std::all_of(name.begin(), name.end(),
-                                                   [](char c) { return c > ' ' && c < 127; });
+    const bool word = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+      return c > ' ' && c != 127;
+    });
     if (!word) {
       return Error{ErrorCode::invalid_argument,
-                   fmt::format("the channel name '{}' is not one word of printable ASCII", name),
+                   fmt::format("the channel name '{}' is not one printable word", name),
                    {}};
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (fields_[j].name == name) {
-        return Error{
-            ErrorCode::invalid_argument, fmt::format("there are two fields named '{}'", name), {}};
+        return Error{ErrorCode::invalid_argument,
+                     fmt::format("there are two fields named '{}'", shown(name)),
+                     {}};
       }
     }
   }
