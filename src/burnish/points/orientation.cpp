@@ -19,8 +19,19 @@ struct Link {
   }
 };
 
+/// How far the normals of i and j look to the same side, -1 to 1. Along an arc from i to j the
+/// normals are mirror images in the plane that bisects it, so that one is compared with the other's
+/// mirror image: this holds across creases, where the normals themselves are at right angles.
+double agreement(std::span<const Vec3f> positions, const std::vector<Vec3f>& normals,
+                 std::uint32_t i, std::uint32_t j) {
+  const Vec3d along = normalized(Vec3d(positions[j]) - Vec3d(positions[i]));
+  const Vec3d m(normals[j]);
+  return dot(Vec3d(normals[i]), m - along * (2 * dot(m, along)));
+}
+
 /// The links of the minimum spanning tree, Kruskal's way.
-std::vector<Link> spanning_links(std::span<const std::uint32_t> neighbours, std::size_t count,
+std::vector<Link> spanning_links(std::span<const Vec3f> positions,
+                                 std::span<const std::uint32_t> neighbours, std::size_t count,
                                  const std::vector<Vec3f>& normals) {
   std::vector<Link> links;
   for (std::uint32_t i = 0; i < normals.size(); ++i) {
@@ -28,7 +39,8 @@ std::vector<Link> spanning_links(std::span<const std::uint32_t> neighbours, std:
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t j = neighbours[i * count + k];
       if (j == i || normals[j] == Vec3f{}) continue;
-      const double weight = 1 - std::abs(dot(Vec3d(normals[i]), Vec3d(normals[j])));
+      const double weight =
+          1 - std::abs(agreement(positions, normals, std::min(i, j), std::max(i, j)));
       links.push_back({static_cast<float>(weight), std::min(i, j), std::max(i, j)});
     }
   }
@@ -56,7 +68,8 @@ Adjacency tree_of(const std::vector<Link>& links, std::size_t count) {
 std::size_t orient_consistently(std::span<const Vec3f> positions,
                                 std::span<const std::uint32_t> neighbours, std::size_t count,
                                 std::vector<Vec3f>& normals) {
-  const Adjacency tree = tree_of(spanning_links(neighbours, count, normals), normals.size());
+  const Adjacency tree =
+      tree_of(spanning_links(positions, neighbours, count, normals), normals.size());
   std::vector<std::uint32_t> from_top;
   for (std::uint32_t i = 0; i < normals.size(); ++i) {
     if (normals[i] != Vec3f{}) from_top.push_back(i);
@@ -79,7 +92,7 @@ std::size_t orient_consistently(std::span<const Vec3f> positions,
       open.pop_back();
       for (const std::uint32_t j : tree.row(i)) {
         if (oriented[j]) continue;
-        if (dot(Vec3d(normals[i]), Vec3d(normals[j])) < 0) normals[j] = -normals[j];
+        if (agreement(positions, normals, i, j) < 0) normals[j] = -normals[j];
         oriented[j] = 1;
         open.push_back(j);
       }

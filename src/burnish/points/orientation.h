@@ -9,8 +9,9 @@
 
 namespace burnish {
 
-/// Turns normals so that they agree along a minimum spanning tree of the neighbours, with weights
-/// 1 - |cos| (Hoppe et al. 1992, section 3.3), ties by index. In each component the point of
+/// Turns normals so that they agree along a minimum spanning tree of the neighbours (Hoppe et al.
+/// 1992, section 3.3), with weights 1 - |cos| between a normal and the neighbour's mirror image in
+/// the plane between the two points, ties by index. In each component the point of
 /// largest z (then of smallest index) looks towards +z. `neighbours` holds `count` indices a point,
 /// itself and padding by itself allowed; points whose normal is 0 take no part. Returns the number
 /// of components. O(#P k log #P).

@@ -12,17 +12,27 @@ namespace {
 constexpr std::uint32_t kGap = 6;
 constexpr Color kInk{34, 38, 44, 255}, kSoft{90, 98, 109, 255}, kPaper{251, 250, 248, 255};
 
-/// The colours of a scale with its ends written beside them, from (column, row) on.
-void write_scale(Image& picture, double column, double row, const ColorScale& scale, double size) {
-  const std::string low = limit_text(scale, scale.low), high = limit_text(scale, scale.high);
-  write_text(picture, column, row, low, kSoft, size);
-  const double begin = column + text_width(low, size) + 3 * size;
-  Image bar(picture.width / 5, static_cast<std::uint32_t>(7 * size), kPaper);
+/// The plate's name and, where it has one, its scale, at the upper left of a picture on a ground of
+/// their own.
+void write_label(Image& picture, const Plate& plate, double size) {
+  const auto pixels = [](double length) { return static_cast<std::uint32_t>(length); };
+  const double pad = 4 * size, name = text_width(plate.name, size);
+  const std::string low = plate.scale ? limit_text(*plate.scale, plate.scale->low) : "";
+  const std::string high = plate.scale ? limit_text(*plate.scale, plate.scale->high) : "";
+  Image bar(plate.scale ? picture.width / 5 : 0, pixels(7 * size), kPaper);
   for (std::uint32_t x = 0; x < bar.width; ++x) {
     for (std::uint32_t y = 0; y < bar.height; ++y) bar.at(x, y) = color_of((x + 0.5) / bar.width);
   }
-  paste(picture, bar, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(row));
-  write_text(picture, begin + bar.width + 4 * size, row, high, kSoft, size);
+  const double scale = pad + text_width(low, size) + bar.width + 2 * pad + text_width(high, size);
+  const double width = 2 * pad + name + (plate.scale ? scale : 0);
+  paste(picture, Image(pixels(width), pixels(9 * size + 2 * pad), kPaper), 0, 0);
+  write_text(picture, pad, pad, plate.name, kSoft, size);
+  if (!plate.scale) return;
+  double column = 2 * pad + name;
+  write_text(picture, column, pad, low, kSoft, size);
+  column += text_width(low, size) + pad;
+  paste(picture, bar, pixels(column), pixels(pad));
+  write_text(picture, column + bar.width + pad, pad, high, kSoft, size);
 }
 
 }  // namespace
@@ -46,13 +56,7 @@ Image contact_sheet(const Record& record, const Plates& plates) {
     for (std::uint32_t r = 0; r < rows; ++r) {
       const Plate& plate = plates.plates[r];
       Image picture = plate.pictures[c];
-      if (c == 0 && !picture.pixels.empty()) {
-        write_text(picture, 8 * size, 8 * size, plate.name, kSoft, size);
-        if (plate.scale) {
-          const double after = 16 * size + text_width(plate.name, size);
-          write_scale(picture, after, 8 * size, *plate.scale, size);
-        }
-      }
+      if (c == 0 && !picture.pixels.empty()) write_label(picture, plate, size);
       paste(sheet, picture, c * (width + kGap), head + r * (height + kGap));
     }
   }

@@ -13,9 +13,8 @@ namespace burnish {
 
 struct ReportOptions {
   std::uint32_t picture_width = 640, picture_height = 480;  ///< pixels
-  int pictured_phases = 4;  ///< at most so many phases are pictured: first, last and some between
-  std::optional<Vec3d>
-      up{};  ///< upwards in the world; none: the axis nearest to the camera's up, or z
+  int pictured_phases = 4;    ///< at most so many phases are pictured: first, last and some between
+  std::optional<Vec3d> up{};  ///< in the world; none: the axis nearest to the camera's up, or z
 };
 
 /// The scale of a painted number.

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "burnish/core/edges.h"
+#include "burnish/core/adjacency.h"
 
 namespace burnish {
 namespace {
@@ -65,6 +65,27 @@ double median_edge_length(const TriangleMesh& mesh) {
   return lengths.empty() ? 0 : ranked(lengths, lengths.size() / 2);
 }
 
+/// Per vertex how many edges it is from a boundary, at most `most`.
+std::vector<int> rings_from_boundary(const TriangleMesh& mesh, int most) {
+  const Adjacency neighbours = one_rings(mesh);
+  const std::vector<bool> boundary = boundary_vertices(mesh);
+  std::vector<int> rings(mesh.positions.size(), most);
+  std::vector<std::uint32_t> front;
+  for (std::uint32_t v = 0; v < rings.size(); ++v) {
+    if (boundary[v]) rings[v] = 0, front.push_back(v);
+  }
+  for (int ring = 1; ring < most && !front.empty(); ++ring) {
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t v : front) {
+      for (const std::uint32_t w : neighbours.row(v)) {
+        if (rings[w] > ring) rings[w] = ring, next.push_back(w);
+      }
+    }
+    front = std::move(next);
+  }
+  return rings;
+}
+
 }  // namespace
 
 View framing_view(std::string name, const TriangleMesh& mesh, const Vec3d& forward, const Vec3d& up,
@@ -107,24 +128,25 @@ std::vector<View> standard_views(const TriangleMesh& mesh, const Vec3d& forward,
 }
 
 View close_up(const TriangleMesh& mesh, const View& wide) {
+  constexpr int kEdges = 9;  // from the middle to the top
   const RigidTransform to_camera = wide.T_world_camera.inverse();
-  // The nearest of the vertices around the middle of the picture; of all vertices if there is none.
+  const std::vector<int> rings = rings_from_boundary(mesh, kEdges);
   std::optional<Vec3d> target;
-  for (double reach = 0.08; !target && reach < 2; reach *= 1.5) {
+  int best = -1;
+  for (double reach = 0.35; !target && reach < 4; reach *= 2) {
     for (const std::uint32_t v : used_vertices(mesh)) {
       const Vec3d p = to_camera(world(mesh, v));
       if (p.z <= 0 || std::hypot(p.x, p.y) > reach * wide.half_height * p.z) continue;
-      if (!target || p.z < target->z) target = p;
+      if (rings[v] > best || (rings[v] == best && p.z < target->z)) target = p, best = rings[v];
     }
   }
   View view = wide;
   view.name = "close-up";
   if (!target) return view;
-  const double half = 9 * median_edge_length(mesh);
+  const double half = kEdges * median_edge_length(mesh);
   view.half_height = std::clamp(half / target->z, 1e-6, 0.5 * wide.half_height);
-  const Vec3d eye = wide.T_world_camera.translation;
   const Vec3d up = wide.T_world_camera.rotate({0, -1, 0});
-  view.T_world_camera = look_at(eye, wide.T_world_camera(*target), up);
+  view.T_world_camera = look_at(wide.T_world_camera.translation, wide.T_world_camera(*target), up);
   return view;
 }
 

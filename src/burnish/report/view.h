@@ -27,8 +27,9 @@ View framing_view(std::string name, const TriangleMesh& mesh, const Vec3d& forwa
 std::vector<View> standard_views(const TriangleMesh& mesh, const Vec3d& forward, const Vec3d& up,
                                  double aspect);
 
-/// A narrower view in the direction of `wide`, of the surface nearest to its middle; about 18 edges
-/// of median length are as high as the picture. O(#V + #T).
+/// A narrower view in the direction of `wide`, of the nearest surface around its middle, away from
+/// boundaries where there is such; about 18 edges of median length are as high as the picture.
+/// O(#V + #T).
 View close_up(const TriangleMesh& mesh, const View& wide);
 
 }  // namespace burnish

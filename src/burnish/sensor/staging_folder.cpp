@@ -15,7 +15,7 @@ Error failed(const fs::path& path, const std::error_code& reason) {
 }
 
 /// Whether only what a run that was killed left behind is in the folder.
-bool is_empty(const fs::path& folder, std::error_code& reason) {
+bool holds_nothing(const fs::path& folder, std::error_code& reason) {
   for (fs::directory_iterator entry(folder, reason), end; !reason && entry != end;
        entry.increment(reason)) {
     if (entry->path().filename() != kStaged) return false;
@@ -63,7 +63,7 @@ Result<StagingFolder> StagingFolder::create(const fs::path& folder, const std::s
     return Error{ErrorCode::invalid_argument, "it is a file, a folder is expected",
                  folder.string()};
   }
-  if (exists && !is_empty(folder, reason) && !fs::exists(folder / mark, reason)) {
+  if (exists && !holds_nothing(folder, reason) && !fs::exists(folder / mark, reason)) {
     return Error{
         ErrorCode::invalid_argument,
         "the folder holds other files (there is no " + mark + " in it): give an empty or a new one",

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "burnish/core/gather.h"
-#include "burnish/points/normals.h"
+#include "burnish/points/estimate_normals.h"
 #include "burnish/triangulation/local_fans.h"
 #include "burnish/triangulation/manifold_surface.h"
 #include "burnish/triangulation/point_order.h"

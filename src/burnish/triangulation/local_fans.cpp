@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kPointsAtOnce = 1024;
 constexpr std::size_t kSpacingNeighbour = 8;
+/// By how much the spacing may grow from a point to a neighbour.
+constexpr float kSpacingGrowth = 2;
 /// A neighbour seen under a steeper angle to the tangent plane (60 degrees) is above or below the
 /// point, not beside it.
 constexpr double kSteepSquaredSine = 0.75;
@@ -78,6 +80,19 @@ class FanBuilder {
 
 }  // namespace
 
+/// A point far from all others would reach for them over any distance: its own spacing says nothing
+/// of a surface there where no neighbour's is alike.
+void limit_spacing(Fans& fans) {
+  const std::vector<float> own = fans.spacing_;
+  for (std::size_t p = 0; p < own.size(); ++p) {
+    float widest = 0;
+    for (const std::uint32_t q : fans.rim(p)) {
+      if (q != Fans::kGap) widest = std::max(widest, own[q]);
+    }
+    fans.spacing_[p] = std::min(own[p], kSpacingGrowth * widest);
+  }
+}
+
 bool build_fans(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                 const NeighbourGrid& grid, const FanRule& rule, const Context& context,
                 Fans& fans) {
@@ -107,6 +122,7 @@ bool build_fans(std::span<const Vec3f> positions, std::span<const Vec3f> normals
   fans.rims_.clear();
   fans.rims_.reserve(fans.offsets_[count]);
   for (const auto& block : rims) fans.rims_.insert(fans.rims_.end(), block.begin(), block.end());
+  limit_spacing(fans);
   return true;
 }
 

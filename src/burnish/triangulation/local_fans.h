@@ -32,7 +32,8 @@ class Fans {
     return {rims_.data() + offsets_[p], rims_.data() + offsets_[p + 1]};
   }
 
-  /// Distance of a point to its eighth neighbour (the last one where there are fewer), m.
+  /// Distance of a point to its eighth neighbour (the last one where there are fewer), but at most
+  /// twice the largest such distance on its rim, m.
   double spacing(std::size_t p) const { return spacing_[p]; }
 
   /// Whether the fan of `p` has the triangle (p, q, r).
@@ -45,6 +46,7 @@ class Fans {
   }
 
  private:
+  friend void limit_spacing(Fans&);
   friend bool build_fans(std::span<const Vec3f>, std::span<const Vec3f>, const NeighbourGrid&,
                          const FanRule&, const Context&, Fans&);
   std::vector<std::uint32_t> offsets_, rims_;
