@@ -1,6 +1,8 @@
 #include "burnish/catalogue/operations.h"
 
 #include "burnish/points/merge_cells.h"
+#include "burnish/points/remove_flying_pixels.h"
+#include "burnish/points/remove_outliers.h"
 #include "burnish/repair/small_components.h"
 #include "burnish/smoothing/gaussian.h"
 #include "burnish/smoothing/nearest_farthest.h"
@@ -12,7 +14,12 @@
 namespace burnish {
 
 std::span<const CleanOperation> clean_operations() {
-  static const std::vector<CleanOperation> list{};
+  static const std::vector<CleanOperation> list{
+      edit_operation("flying_pixels", remove_flying_pixels,
+                     "Pixels between two surfaces, seen at a grazing angle, or in specks go.", ""),
+      edit_operation("outliers", remove_outliers,
+                     "Points that lie farther from the others than these from each other go.", ""),
+  };
   return list;
 }
 

@@ -1,0 +1,56 @@
+#include "summary.h"
+
+#include <fmt/format.h>
+
+#include "burnish/core/topology.h"
+
+namespace burnish::app {
+
+void say_steps(const Session& session, const Record& record) {
+  for (const Step& step : record.steps) {
+    std::string line = fmt::format("{} {}:", step.verb, step.method);
+    const char* separator = " ";
+    for (const Fact& fact : step.facts) {
+      line += fmt::format("{}{} {}", separator, fact.key, readable(fact));
+      separator = ", ";
+    }
+    say(session, fmt::format("{} ({:.2f} s)", line, step.seconds));
+  }
+  for (const std::string& note : record.notes) say(session, "note: " + note);
+}
+
+void say_comparisons(const Session& session, const Record& record) {
+  for (const auto& [name, facts] : record.comparisons) {
+    std::string line = name + " against the truth:";
+    const char* separator = " ";
+    for (const Fact& fact : facts) {
+      line += fmt::format("{}{} {}", separator, fact.key, readable(fact));
+      separator = ", ";
+    }
+    say(session, line);
+  }
+}
+
+void say_mesh(const Session& session, const std::string& name, const TriangleMesh& mesh) {
+  const Topology t = topology(mesh);
+  say(session, fmt::format("{}: {} vertices, {} triangles, {} components, {} boundary loops, "
+                           "{} non-manifold edges, {}",
+                           name, mesh.positions.size(), mesh.triangles.size(), t.components,
+                           t.boundary_loops, t.non_manifold_edges,
+                           t.oriented() ? "one orientation" : "orientation disagrees"));
+}
+
+Result<void> save(const std::string& path, const TriangleMesh& mesh, const Session& session,
+                  const Context& context) {
+  context.stage("writing " + path);
+  return finish_writing(write_mesh(path, mesh, {}, context), path, session);
+}
+
+Result<void> finish_writing(const Result<WriteReport>& written, const std::string& path,
+                            const Session& session) {
+  if (!written) return written.error();
+  for (const std::string& note : written->notes) say(session, fmt::format("{}: {}", path, note));
+  return {};
+}
+
+}  // namespace burnish::app

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "burnish/io/geometry_file.h"
+#include "burnish/pipeline/record.h"
+#include "verb.h"
+
+namespace burnish::app {
+
+/// Prints what each step of a run did and how long it took, one line a step.
+void say_steps(const Session& session, const Record& record);
+
+/// Prints a row per comparison with the true surface.
+void say_comparisons(const Session& session, const Record& record);
+
+/// Prints "<name>: 1234 vertices, ..." with what matters of how the mesh hangs together.
+void say_mesh(const Session& session, const std::string& name, const TriangleMesh& mesh);
+
+/// Writes a mesh and prints what its format could not hold.
+Result<void> save(const std::string& path, const TriangleMesh& mesh, const Session& session,
+                  const Context& context);
+
+/// Prints the notes of a writing, or hands its error on.
+Result<void> finish_writing(const Result<WriteReport>& written, const std::string& path,
+                            const Session& session);
+
+/// Whether `path` names a known format and lies in a folder that is there: asked before the work
+/// begins. Errors: unsupported, not_found.
+Result<void> check_output(const std::string& path);
+
+/// Whether the folder of `path` is there. Errors: not_found.
+Result<void> check_folder_of(const std::string& path);
+
+}  // namespace burnish::app

@@ -1,0 +1,78 @@
+#include "verb.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace burnish::app {
+namespace {
+
+/// A length in the unit in which it has one to three digits before the point.
+std::string readable_length(double metres) {
+  const double size = std::abs(metres);
+  if (size == 0) return "0 m";
+  if (size < 1e-3) return fmt::format("{:.4g} um", metres * 1e6);
+  if (size < 1) return fmt::format("{:.4g} mm", metres * 1e3);
+  return fmt::format("{:.4g} m", metres);
+}
+
+}  // namespace
+
+void say(const Session& session, const std::string& line) {
+  if (!session.quiet) fmt::print("{}\n", line);
+}
+
+std::string readable(const Fact& fact) {
+  if (fact.unit == "m") return readable_length(fact.value);
+  if (fact.unit == "rad") return fmt::format("{:.4g} deg", fact.value * 180 / std::numbers::pi);
+  const bool whole = fact.value == std::floor(fact.value) && std::abs(fact.value) < 1e15;
+  const std::string number = whole ? fmt::format("{:.0f}", fact.value) : fmt::format("{:.5g}", fact.value);
+  return fact.unit.empty() ? number : number + " " + fact.unit;
+}
+
+std::string methods_help(std::string_view family) {
+  std::string text;
+  for (const OperationInfo& info : operations_of(family)) {
+    text += fmt::format("  {}\n      {}\n", info.name, info.summary);
+    for (const FieldInfo& field : info.fields) {
+      text += fmt::format("      {}={}  {}; {}{}{}\n", field.key, field.default_value, field.help,
+                          field.range, field.unit.empty() ? "" : " ", field.unit);
+    }
+  }
+  return text;
+}
+
+CLI::Option* add_quantity(CLI::App* verb, const std::string& name, double& value, Quantity quantity,
+                          const std::string& help) {
+  return verb->add_option_function<std::string>(
+      name,
+      [&value, quantity](const std::string& text) {
+        const Result<double> parsed = parse_quantity(text, quantity);
+        if (!parsed) throw CLI::ValidationError(parsed.error().text());
+        value = *parsed;
+      },
+      help);
+}
+
+CLI::Option* add_method(CLI::App* verb, const std::string& name, std::vector<std::string>& methods,
+                        std::string_view family, const std::string& help) {
+  return verb->add_option(name, methods, help)
+      ->type_name("METHOD")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->default_str("")
+      ->description(help + fmt::format(" (burnish list {})", family));
+}
+
+Result<std::vector<Method>> parse_methods(const std::vector<std::string>& texts) {
+  std::vector<Method> methods;
+  for (const std::string& text : texts) {
+    Result<Method> method = parse_method(text);
+    if (!method) return std::move(method).error();
+    methods.push_back(*std::move(method));
+  }
+  return methods;
+}
+
+}  // namespace burnish::app

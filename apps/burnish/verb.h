@@ -1,0 +1,60 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "burnish/base/context.h"
+#include "burnish/base/quantity.h"
+#include "burnish/base/result.h"
+#include "burnish/catalogue/operations.h"
+
+namespace burnish::app {
+
+/// What every verb is run with.
+struct Session {
+  bool quiet = false;
+  int threads = 0;
+  std::string command;  ///< the command line as it was typed
+  std::stop_token stop;
+};
+
+/// What a verb does once the command line is read.
+using Action = std::function<Result<void>(const Session&, const Context&)>;
+
+/// Each adds one verb to the program and returns what it does.
+Action add_reconstruct(CLI::App& app);
+Action add_triangulate(CLI::App& app);
+Action add_smooth(CLI::App& app);
+Action add_convert(CLI::App& app);
+Action add_measure(CLI::App& app);
+Action add_simulate(CLI::App& app);
+Action add_reproduce(CLI::App& app);
+Action add_list(CLI::App& app);
+
+/// Prints to standard output unless the session is quiet.
+void say(const Session& session, const std::string& line);
+
+/// "12.3 mm", "3.1°", "0.52": a fact's value as people read it.
+std::string readable(const Fact& fact);
+
+/// The methods of a family with their parameters, for the end of a help text.
+std::string methods_help(std::string_view family);
+
+/// Adds an option that takes a number with a unit (5mm, 30deg) to a verb.
+CLI::Option* add_quantity(CLI::App* verb, const std::string& name, double& value, Quantity quantity,
+                          const std::string& help);
+
+/// Adds an option that takes NAME[:key=value,...]; the method is looked up when the verb runs.
+CLI::Option* add_method(CLI::App* verb, const std::string& name, std::vector<std::string>& methods,
+                        std::string_view family, const std::string& help);
+
+/// The methods written in `texts`. Errors: invalid_argument.
+Result<std::vector<Method>> parse_methods(const std::vector<std::string>& texts);
+
+}  // namespace burnish::app

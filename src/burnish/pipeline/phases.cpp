@@ -1,0 +1,109 @@
+#include "burnish/pipeline/phases.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "burnish/base/version.h"
+
+namespace burnish {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Error in_step(std::string_view verb, const Method& method, Error error) {
+  if (error.code == ErrorCode::cancelled) return error;
+  const std::string step = fmt::format("{} {}", verb, method.name);
+  error.where = error.where.empty() ? step : fmt::format("{}, {}", step, error.where);
+  return error;
+}
+
+/// Runs one method and records it. `run` calls the operation, `facts_of` reads its result.
+template <class Op, class Run, class FactsOf>
+auto recorded(std::string_view verb, const Result<const Op*>& operation, const Method& method,
+              Record& record, const Context& context, Run run, FactsOf facts_of) -> decltype(run(**operation)) {
+  if (!operation) return operation.error();
+  const Result<Settings> settings = (*operation)->resolve(method.settings);
+  if (!settings) return in_step(verb, method, settings.error());
+  context.stage(fmt::format("{}: {}", verb, method.name));
+  const auto start = std::chrono::steady_clock::now();
+  auto result = run(**operation);
+  if (!result) return in_step(verb, method, std::move(result).error());
+  record.steps.push_back({std::string(verb), method.name, *settings, facts_of(*result), seconds_since(start),
+                          (*operation)->info.fields});
+  return result;
+}
+
+/// Runs methods that edit `edited`, one after another.
+template <class T, class Find, class After>
+Result<void> edit(std::string_view verb, T& edited, const std::vector<Method>& methods, Find find,
+                  Record& record, const Context& context, After after) {
+  const double count = static_cast<double>(methods.size());
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const double done = static_cast<double>(i);
+    const Context share = context.part(done / count, (done + 1) / count);
+    const auto facts = recorded(
+        verb, find(methods[i].name), methods[i], record, share,
+        [&](const auto& operation) { return operation.run(edited, methods[i].settings, share); },
+        [](const Facts& measured) { return measured; });
+    if (!facts) return facts.error();
+    after(i);
+  }
+  return {};
+}
+
+constexpr auto kNothing = [](std::size_t) {};
+constexpr auto kFactsOfCreated = [](const auto& created) { return created.facts; };
+
+}  // namespace
+
+Result<void> clean_cloud(PointCloud& cloud, const std::vector<Method>& methods, Record& record,
+                         const Context& context) {
+  return edit("clean", cloud, methods, find_clean, record, context, kNothing);
+}
+
+Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method& method, Record& record,
+                                const Context& context) {
+  auto merged = recorded(
+      "merge", find_merge(method.name), method, record, context,
+      [&](const MergeOperation& operation) { return operation.run(clouds, method.settings, context); },
+      kFactsOfCreated);
+  if (!merged) return std::move(merged).error();
+  return std::move(merged->value);
+}
+
+Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& method, Record& record,
+                                       const Context& context) {
+  auto mesh = recorded(
+      "triangulate", find_triangulate(method.name), method, record, context,
+      [&](const TriangulateOperation& operation) { return operation.run(cloud, method.settings, context); },
+      kFactsOfCreated);
+  if (!mesh) return std::move(mesh).error();
+  return std::move(mesh->value);
+}
+
+Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods, Record& record,
+                         const Context& context) {
+  return edit("repair", mesh, methods, find_repair, record, context, kNothing);
+}
+
+Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods, bool keep_phases,
+                              Record& record, const Context& context) {
+  if (keep_phases) record.phases.push_back({"original", mesh, {}});
+  return edit("smooth", mesh, methods, find_smooth, record, context, [&](std::size_t i) {
+    if (keep_phases) record.phases.push_back({fmt::format("phase {}", i + 1), mesh, {}});
+  });
+}
+
+Record new_record(std::string title, std::string command, std::vector<std::string> inputs) {
+  Record record;
+  record.title = std::move(title);
+  record.command = std::move(command);
+  record.inputs = std::move(inputs);
+  record.versions = {{"burnish", kVersion}, {"compiler", __VERSION__}};
+  return record;
+}
+
+}  // namespace burnish

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "burnish/catalogue/operations.h"
+#include "burnish/pipeline/record.h"
+
+namespace burnish {
+
+/// The steps of a run. Each runs methods of one family, and adds to the record what was done, with
+/// every parameter as it was used, what came of it and how long it took.
+
+Result<void> clean_cloud(PointCloud& cloud, const std::vector<Method>& methods, Record& record,
+                         const Context& context);
+
+Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method& method, Record& record,
+                                const Context& context);
+
+Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& method, Record& record,
+                                       const Context& context);
+
+Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods, Record& record,
+                         const Context& context);
+
+/// With `keep_phases` the record gets the mesh as it is now ("original") and after each method
+/// ("phase 1", "phase 2", ...).
+Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods, bool keep_phases,
+                              Record& record, const Context& context);
+
+/// A record with its title, the command line and the versions filled in.
+Record new_record(std::string title, std::string command, std::vector<std::string> inputs);
+
+}  // namespace burnish

@@ -1,0 +1,35 @@
+#include "burnish/pipeline/recipe.h"
+
+namespace burnish {
+namespace {
+
+template <class Find>
+Result<void> check_methods(const std::vector<Method>& methods, Find find) {
+  for (const Method& method : methods) {
+    const auto operation = find(method.name);
+    if (!operation) return operation.error();
+    if (auto settings = (*operation)->resolve(method.settings); !settings) {
+      Error error = settings.error();
+      error.where = method.name;
+      return error;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_smoothing(const std::vector<Method>& methods) { return check_methods(methods, find_smooth); }
+
+Result<void> check(const Recipe& recipe) {
+  if (auto ok = check_methods(recipe.clean_scan, find_clean); !ok) return ok;
+  if (auto ok = check_methods({recipe.merge}, find_merge); !ok) return ok;
+  if (auto ok = check_methods(recipe.clean_merged, find_clean); !ok) return ok;
+  if (recipe.triangulate) {
+    if (auto ok = check_methods({*recipe.triangulate}, find_triangulate); !ok) return ok;
+  }
+  if (auto ok = check_methods(recipe.repair, find_repair); !ok) return ok;
+  return check_smoothing(recipe.smooth);
+}
+
+}  // namespace burnish

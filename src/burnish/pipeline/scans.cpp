@@ -1,0 +1,145 @@
+#include "burnish/pipeline/scans.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "burnish/core/transform.h"
+#include "burnish/io/geometry_file.h"
+#include "burnish/points/estimate_normals.h"
+#include "burnish/points/unproject.h"
+#include "burnish/sensor/pose_list.h"
+#include "burnish/sensor/presets.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error no_poses(std::size_t count) {
+  return {ErrorCode::invalid_argument,
+          fmt::format("{} scans and no poses: give --poses FILE, a line `x y z qx qy qz qw` (camera to "
+                      "world) for each of them, or a Redwood trajectory.log or TUM trajectory", count), {}};
+}
+
+/// Depth images, seen through their camera.
+class FrameScans : public Scans {
+ public:
+  explicit FrameScans(FrameSequence frames) : frames_(std::move(frames)) { notes_ = frames_.notes(); }
+
+  std::size_t size() const override { return frames_.size(); }
+
+  Result<PointCloud> read(std::size_t i, const Context& context) const override {
+    const Result<DepthFrame> frame = frames_.read(i);
+    if (!frame) return frame.error();
+    return unproject(*frame, {}, context);
+  }
+
+  std::optional<Viewpoint> viewpoint() const override {
+    return Viewpoint{frames_.camera(), frames_.files().front().T_world_camera.value_or(RigidTransform{})};
+  }
+
+ private:
+  FrameSequence frames_;
+};
+
+/// Gives the points of an organized cloud the sigma that the sensor's noise means across the surface,
+/// as unproject does for frames. The camera looks along +z from the viewpoint.
+void add_sigma(PointCloud& cloud, const Sensor& sensor) {
+  const Vec3d eye = cloud.viewpoint.value_or(Vec3d{}) - cloud.frame.origin;
+  cloud.attributes.sigma.assign(cloud.positions.size(), 0);
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
+    if (!is_finite(cloud.positions[i])) continue;
+    const Vec3d ray = Vec3d(cloud.positions[i]) - eye;
+    const Vec3d normal(cloud.attributes.normals[i]);
+    const double cosine = normal == Vec3d{} ? 1 : std::min(1., std::abs(dot(normalized(ray), normal)));
+    const double theta = std::acos(cosine), sine = std::sin(theta);
+    const double axial = sensor.noise.axial(ray.z, theta) * cosine;
+    const double lateral = sensor.noise.lateral(ray.z, theta, sensor.camera.fx) * sine;
+    cloud.attributes.sigma[i] = static_cast<float>(std::sqrt(axial * axial + lateral * lateral));
+  }
+}
+
+/// Files of points.
+class CloudScans : public Scans {
+ public:
+  CloudScans(std::vector<fs::path> files, std::vector<RigidTransform> poses, Sensor sensor)
+      : files_(std::move(files)), poses_(std::move(poses)), sensor_(std::move(sensor)) {}
+
+  std::size_t size() const override { return files_.size(); }
+
+  Result<PointCloud> read(std::size_t i, const Context& context) const override {
+    Result<PointCloud> cloud = read_cloud(files_[i], context.part(0, 0.5));
+    if (!cloud) return cloud;
+    const auto measured = [](const Vec3f& p) { return is_finite(p); };
+    if (std::none_of(cloud->positions.begin(), cloud->positions.end(), measured)) {
+      return Error{ErrorCode::bad_geometry, "holds no point", files_[i].string()};
+    }
+    if (cloud->attributes.normals.empty()) {
+      if (auto estimated = estimate_normals(*cloud, {}, context.part(0.5, 1)); !estimated) {
+        return estimated.error();
+      }
+    }
+    if (cloud->grid && cloud->attributes.sigma.empty()) add_sigma(*cloud, sensor_);
+    if (cloud->attributes.observations.empty()) cloud->attributes.observations.assign(cloud->positions.size(), 1);
+    if (cloud->attributes.origin.empty()) cloud->attributes.origin.assign(cloud->positions.size(), Origin::seen);
+    if (poses_.empty()) return cloud;
+    return transformed(*std::move(cloud), poses_[i]);
+  }
+
+ private:
+  std::vector<fs::path> files_;
+  std::vector<RigidTransform> poses_;  ///< empty, or one per file
+  Sensor sensor_;
+};
+
+Result<std::unique_ptr<Scans>> open_clouds(const ScanInputs& inputs) {
+  const Result<Sensor> sensor = find_sensor(inputs.frames.sensor.empty() ? "kinect_v1" : inputs.frames.sensor);
+  if (!sensor) return sensor.error();
+  std::vector<RigidTransform> poses;
+  if (!inputs.frames.poses.empty()) {
+    Result<PoseList> list = read_pose_list(inputs.frames.poses);
+    if (!list) return std::move(list).error();
+    poses = std::move(list->poses);
+    if (poses.size() != inputs.paths.size()) {
+      return Error{ErrorCode::invalid_argument,
+                   fmt::format("{} poses for {} clouds", poses.size(), inputs.paths.size()),
+                   inputs.frames.poses.string()};
+    }
+  } else if (inputs.paths.size() > 1) {
+    return no_poses(inputs.paths.size());
+  }
+  return std::unique_ptr<Scans>(std::make_unique<CloudScans>(inputs.paths, std::move(poses), *sensor));
+}
+
+Result<std::unique_ptr<Scans>> open_images(const ScanInputs& inputs) {
+  Result<FrameSequence> frames = open_frames(inputs.paths, inputs.frames);
+  if (!frames) return std::move(frames).error();
+  if (frames->size() > 1 && !frames->has_poses()) return no_poses(frames->size());
+  return std::unique_ptr<Scans>(std::make_unique<FrameScans>(*std::move(frames)));
+}
+
+bool is_image_or_folder(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return fs::is_directory(path) || ending == ".png" || ending == ".pgm" || ending == ".tif" || ending == ".tiff";
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& inputs) {
+  if (inputs.paths.empty()) return Error{ErrorCode::invalid_argument, "nothing to reconstruct from", {}};
+  for (const fs::path& path : inputs.paths) {
+    if (!fs::exists(path)) return Error{ErrorCode::not_found, "no such file or folder", path.string()};
+  }
+  const bool images = is_image_or_folder(inputs.paths.front());
+  for (const fs::path& path : inputs.paths) {
+    if (is_image_or_folder(path) != images) {
+      return Error{ErrorCode::invalid_argument, "depth frames and clouds cannot be mixed", path.string()};
+    }
+  }
+  return images ? open_images(inputs) : open_clouds(inputs);
+}
+
+}  // namespace burnish

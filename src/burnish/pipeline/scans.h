@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "burnish/base/context.h"
+#include "burnish/core/point_cloud.h"
+#include "burnish/pipeline/record.h"
+#include "burnish/sensor/frame_sequence.h"
+
+namespace burnish {
+
+/// What was scanned and how to read it. `frames` tells of poses, camera, sensor and depth scale;
+/// clouds use its poses, and organized ones without sigma its sensor's noise (kinect_v1's where it
+/// names none).
+struct ScanInputs {
+  std::vector<std::filesystem::path> paths;  ///< folders of frames, single frames, or clouds
+  FrameOptions frames;
+};
+
+/// One or more scans, each read as a cloud in world coordinates, with normals.
+class Scans {
+ public:
+  virtual ~Scans() = default;
+  virtual std::size_t size() const = 0;
+
+  /// Errors: those of reading the file, and bad_geometry where it holds no point.
+  virtual Result<PointCloud> read(std::size_t i, const Context& context) const = 0;
+
+  /// Where the first camera stood, where that is known.
+  virtual std::optional<Viewpoint> viewpoint() const { return std::nullopt; }
+
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ protected:
+  std::vector<std::string> notes_;
+};
+
+/// Recognises what `inputs` are. Errors: not_found; bad_file; invalid_argument where frames and
+/// clouds are mixed, where there are several scans and no poses, or as many as there are not.
+Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& inputs);
+
+}  // namespace burnish

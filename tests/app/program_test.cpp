@@ -1,0 +1,181 @@
+// The program as a user meets it: exit statuses, messages, help, Ctrl-C, and the main job.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "burnish/core/topology.h"
+#include "burnish/io/geometry_file.h"
+#include "burnish/shapes/shapes.h"
+#include "support/subprocess.h"
+#include "support/test_data.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::TemporaryFolder;
+
+Outcome burnish(std::vector<std::string> words, int interrupt_after_ms = 0) {
+  words.insert(words.begin(), BURNISH_PROGRAM);
+  return test::run_program(words, std::chrono::milliseconds(interrupt_after_ms));
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void write_text(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+TEST(Program, SaysItsVersion) {
+  const Outcome outcome = burnish({"--version"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(outcome.out.starts_with("burnish ")) << outcome.out;
+}
+
+TEST(Program, EveryVerbHasHelpWithAnExample) {
+  for (const char* verb : {"reconstruct", "triangulate", "smooth", "convert", "measure", "simulate", "reproduce", "list"}) {
+    const Outcome outcome = burnish({verb, "--help"});
+    EXPECT_EQ(outcome.status, 0) << verb;
+    EXPECT_NE(outcome.out.find(std::string("burnish ") + verb), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("Example"), std::string::npos) << verb;
+  }
+}
+
+TEST(Program, ListNamesEveryMethodOfTheCatalogueWithItsParameters) {
+  const Outcome outcome = burnish({"list"});
+  ASSERT_EQ(outcome.status, 0);
+  for (const auto family : families()) {
+    for (const OperationInfo& info : operations_of(family)) {
+      EXPECT_NE(outcome.out.find(info.name), std::string::npos) << info.name;
+      for (const FieldInfo& field : info.fields) {
+        EXPECT_NE(outcome.out.find(field.key + "=" + field.default_value), std::string::npos) << field.key;
+      }
+    }
+  }
+  EXPECT_EQ(burnish({"list", "nothing_such"}).status, 2);
+}
+
+TEST(Program, RefusesWhatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "box.ply", make_box()));
+  const std::string in = folder / "box.ply", out = folder / "out.ply";
+  EXPECT_EQ(burnish({}).status, 2);
+  EXPECT_EQ(burnish({"polish"}).status, 2);
+  EXPECT_EQ(burnish({"smooth", in}).status, 2);
+  for (const char* method : {"polish", "one_ring_mean:passes=2", "one_ring_mean:iterations=-1",
+                             "one_ring_mean:iterations", "one_ring_mean:"}) {
+    const Outcome outcome = burnish({"smooth", in, "-o", out, "--method", method});
+    EXPECT_EQ(outcome.status, 2) << method;
+    EXPECT_TRUE(outcome.err.starts_with("burnish: ")) << outcome.err;
+    EXPECT_FALSE(fs::exists(out));
+  }
+}
+
+TEST(Program, NamesTheFileThatIsMissingOrDamaged) {
+  const TemporaryFolder folder;
+  const Outcome missing = burnish({"convert", folder / "none.ply", folder / "out.ply"});
+  EXPECT_EQ(missing.status, 3);
+  EXPECT_NE(missing.err.find("none.ply"), std::string::npos);
+
+  write_text(folder / "bad.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                 "property float z\nend_header\n0 0 0\n1 0\n");
+  const Outcome damaged = burnish({"convert", folder / "bad.ply", folder / "out.ply"});
+  EXPECT_EQ(damaged.status, 4);
+  EXPECT_NE(damaged.err.find("bad.ply"), std::string::npos) << damaged.err;
+  EXPECT_NE(damaged.err.find("line 9"), std::string::npos) << damaged.err;
+  EXPECT_FALSE(fs::exists(folder / "out.ply"));
+}
+
+TEST(Program, RefusesAnOutputThatCannotBeBeforeItWorks) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "box.ply", make_box()));
+  const std::string in = folder / "box.ply";
+  for (const std::string out : {folder / "out.xyz2", folder / "none" / "out.ply"}) {
+    const Outcome outcome = burnish({"smooth", in, "-o", out, "--method", "one_ring_mean"});
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_NE(outcome.err.find(fs::path(out).parent_path().filename().string()), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(Program, QuietPrintsNothing) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "box.ply", make_box()));
+  const Outcome outcome = burnish({"-q", "smooth", folder / "box.ply", "-o", folder / "out.ply", "-m", "one_ring_mean"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  EXPECT_TRUE(read_mesh(folder / "out.ply"));
+}
+
+TEST(Program, SmoothsInPhasesOneAfterAnother) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "box.ply", make_box({1, 1, 1}, 6)));
+  const std::string in = folder / "box.ply";
+  ASSERT_EQ(burnish({"smooth", in, "-o", folder / "two.ply", "-m", "one_ring_mean:iterations=2"}).status, 0);
+  ASSERT_EQ(burnish({"smooth", in, "-o", folder / "once_twice.ply", "-m", "one_ring_mean", "-m", "one_ring_mean"}).status, 0);
+  EXPECT_EQ(bytes_of(folder / "two.ply"), bytes_of(folder / "once_twice.ply"));
+}
+
+TEST(Program, SeveralScansWithoutPosesAreRefusedWithWhatToGive) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "a.ply", make_sphere()));
+  ASSERT_TRUE(write_mesh(folder / "b.ply", make_sphere()));
+  const Outcome outcome = burnish({"reconstruct", folder / "a.ply", folder / "b.ply", "-o", folder / "out.ply"});
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("--poses"), std::string::npos) << outcome.err;
+}
+
+TEST(Program, InterruptStopsWithinASecondAndLeavesNoFile) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "grid.ply", make_grid(500, 500, 0.001)));
+  const Outcome outcome =
+      burnish({"smooth", folder / "grid.ply", "-o", folder / "out.ply", "-m", "one_ring_mean:iterations=100000"}, 1000);
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_LT(outcome.seconds, 2.0);
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"grid.ply"});
+}
+
+TEST(Program, InterruptWhileSimulatingLeavesNoHalfFrame) {
+  const TemporaryFolder folder;
+  const Outcome outcome = burnish({"simulate", "teapot", "-o", folder / "scan", "--views", "500"}, 1500);
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_LT(outcome.seconds, 2.5);
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
+    EXPECT_EQ(entry.path().string().find(".tmp"), std::string::npos) << entry.path();
+  }
+}
+
+/// The main job, small: the same bytes for any number of threads, and a sound mesh near the truth.
+TEST(Program, ScansAndReconstructsASphereTheSameForAnyThreadCount) {
+  const TemporaryFolder folder;
+  const std::string scan = folder / "scan";
+  const Outcome simulated = burnish({"simulate", "sphere", "-o", scan, "--views", "8", "--seed", "7"});
+  ASSERT_EQ(simulated.status, 0) << simulated.err;
+  std::string first;
+  for (const char* threads : {"1", "2", "3", "8"}) {
+    const std::string out = folder / (std::string("mesh") + threads + ".ply");
+    const Outcome made = burnish({"reconstruct", scan, "-o", out, "--threads", threads});
+    ASSERT_EQ(made.status, 0) << made.err;
+    if (first.empty()) first = bytes_of(out);
+    EXPECT_EQ(bytes_of(out), first) << threads << " threads";
+  }
+  const auto mesh = read_mesh(folder / "mesh1.ply");
+  ASSERT_TRUE(mesh);
+  const Topology t = topology(*mesh);
+  EXPECT_EQ(t.non_manifold_edges, 0u);
+  EXPECT_EQ(t.flipped_edges, 0u);
+  EXPECT_EQ(t.non_manifold_vertices, 0u);
+  EXPECT_GT(mesh->triangles.size(), 1000u);
+  EXPECT_EQ(mesh->attributes.sigma.size(), mesh->positions.size());
+}
+
+}  // namespace
+}  // namespace burnish
