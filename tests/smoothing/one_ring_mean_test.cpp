@@ -8,7 +8,8 @@ namespace {
 /// A hexagon of unit radius around a raised centre.
 TriangleMesh hat() {
   TriangleMesh mesh;
-  mesh.positions = {{0, 0, 1}, {1, 0, 0}, {.5f, .8f, 0}, {-.5f, .8f, 0}, {-1, 0, 0}, {-.5f, -.8f, 0}, {.5f, -.8f, 0}};
+  mesh.positions = {{0, 0, 1},  {1, 0, 0},       {.5f, .8f, 0}, {-.5f, .8f, 0},
+                    {-1, 0, 0}, {-.5f, -.8f, 0}, {.5f, -.8f, 0}};
   for (std::uint32_t i = 0; i < 6; ++i) mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % 6});
   return mesh;
 }

@@ -28,7 +28,7 @@ class TemporaryFolder {
 }  // namespace burnish::test
 
 /// The path of a data file, or the end of the test with a plain message where there is no data.
-#define BURNISH_DATA_OR_SKIP(name, relative)                                                 \
-  if (!burnish::test::data_folder())                                                         \
-    GTEST_SKIP() << "no test data: set BURNISH_TEST_DATA to a folder that holds " relative;  \
+#define BURNISH_DATA_OR_SKIP(name, relative)                                                \
+  if (!burnish::test::data_folder())                                                        \
+    GTEST_SKIP() << "no test data: set BURNISH_TEST_DATA to a folder that holds " relative; \
   const std::filesystem::path name = *burnish::test::data_folder() / relative

@@ -9,26 +9,33 @@
 namespace burnish {
 namespace {
 
-/// Visits every pair of triangles that share an edge, at least along a spanning chain of each edge.
+/// Triangles that share an edge, in one set. Their sides are bucketed by the smaller vertex; each
+/// bucket is then small enough to sort.
 DisjointSets joined_across_edges(const TriangleMesh& mesh) {
-  DisjointSets sets(mesh.triangles.size());
   struct Side {
-    std::uint32_t low, high, triangle;
+    std::uint32_t high, triangle;
   };
-  std::vector<Side> sides;
-  sides.reserve(mesh.triangles.size() * 3);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
-      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), t});
+  std::vector<std::uint32_t> starts(mesh.positions.size() + 1, 0);
+  const auto for_each_side = [&](auto&& visit) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
+        if (a != b) visit(std::min(a, b), Side{std::max(a, b), t});
+      }
     }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.low != b.low ? a.low < b.low : a.high < b.high;
-  });
-  for (std::size_t i = 1; i < sides.size(); ++i) {
-    if (sides[i].low == sides[i - 1].low && sides[i].high == sides[i - 1].high) {
-      sets.unite(sides[i].triangle, sides[i - 1].triangle);
+  };
+  for_each_side([&](std::uint32_t low, const Side&) { ++starts[low + 1]; });
+  for (std::size_t v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
+  std::vector<Side> sides(starts.back());
+  std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+  for_each_side([&](std::uint32_t low, const Side& side) { sides[next[low]++] = side; });
+
+  DisjointSets sets(mesh.triangles.size());
+  for (std::size_t low = 0; low + 1 < starts.size(); ++low) {
+    const auto begin = sides.begin() + starts[low], end = sides.begin() + starts[low + 1];
+    std::sort(begin, end, [](const Side& a, const Side& b) { return a.high < b.high; });
+    for (auto it = begin; it != end; ++it) {
+      if (it != begin && it->high == (it - 1)->high) sets.unite(it->triangle, (it - 1)->triangle);
     }
   }
   return sets;
@@ -45,24 +52,28 @@ std::size_t count_duplicates(const TriangleMesh& mesh) {
   return static_cast<std::size_t>(sorted.end() - std::unique(sorted.begin(), sorted.end()));
 }
 
-/// Whether the triangles around `v` hang together by edges at `v`.
+/// Whether the triangles around `v` hang together by edges at `v`; degenerate ones are left out.
 bool is_one_fan(const TriangleMesh& mesh, std::uint32_t v, std::span<const std::uint32_t> around) {
   struct Spoke {
     std::uint32_t end, triangle;
   };
   std::vector<Spoke> spokes;
-  for (std::uint32_t i = 0; i < around.size(); ++i) {
-    for (const std::uint32_t w : mesh.triangles[around[i]]) {
-      if (w != v) spokes.push_back({w, i});
+  std::uint32_t triangles = 0;
+  for (const std::uint32_t t : around) {
+    if (names_twice(mesh.triangles[t])) continue;
+    for (const std::uint32_t w : mesh.triangles[t]) {
+      if (w != v) spokes.push_back({w, triangles});
     }
+    ++triangles;
   }
   std::sort(spokes.begin(), spokes.end(),
             [](const Spoke& a, const Spoke& b) { return a.end < b.end; });
-  DisjointSets fans(around.size());
-  std::size_t count = around.size();
+  DisjointSets fans(triangles);
+  std::size_t count = triangles;
   for (std::size_t i = 1; i < spokes.size(); ++i) {
-    if (spokes[i].end == spokes[i - 1].end)
+    if (spokes[i].end == spokes[i - 1].end) {
       count -= fans.unite(spokes[i].triangle, spokes[i - 1].triangle);
+    }
   }
   return count <= 1;
 }

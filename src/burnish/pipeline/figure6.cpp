@@ -195,23 +195,16 @@ Figure6 reproduce_figure6() {
 
 std::string_view figure6_explanation() {
   return "The table is not what the text says it is. Its phases are not Eq. 1: every printed "
-         "coordinate "
-         "is that of the plain one-ring mean with the vertex itself included, sum / (n + 1), "
-         "applied "
-         "once and twice, all positions of a pass computed from the old ones, open boundaries "
-         "moving "
-         "freely (method one_ring_mean:boundary=free here; Eq. 1 is nearest_farthest). The "
-         "distances "
-         "called Euclidean are sqrt(sqrt|dx| + sqrt|dy| + sqrt|dz|), right to every printed digit. "
-         "The "
-         "coordinates of P5 and P6 are printed one row off in the original and in phase 1, while "
-         "their "
-         "distances, and all of phase 2, are those of the right vertices. The model's coordinates "
-         "were "
-         "rounded to six significant digits first; means, deviations and later coordinates are "
-         "printed cut off "
-         "rather than rounded. The printed angles follow from neither kind of "
-         "distance and are left out.";
+         "coordinate is that of the plain one-ring mean with the vertex itself included, "
+         "sum / (n + 1), applied once and twice, all positions of a pass computed from the old "
+         "ones, open boundaries moving freely (here one_ring_mean:boundary=free; Eq. 1 is "
+         "nearest_farthest). The distances called Euclidean are "
+         "sqrt(sqrt|dx| + sqrt|dy| + sqrt|dz|), right to every printed digit. The coordinates of "
+         "P5 and P6 are printed one row off in the original and in phase 1, while their distances, "
+         "and all of phase 2, are those of the right vertices. The model's coordinates were "
+         "rounded to six significant digits first; means, deviations and the coordinates of the "
+         "phases are printed cut off rather than rounded. The printed angles follow from neither "
+         "kind of distance and are left out.";
 }
 
 }  // namespace burnish

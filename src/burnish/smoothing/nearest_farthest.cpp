@@ -12,12 +12,35 @@ namespace {
 constexpr double kTie = 2e-9;       ///< of a squared distance: 1e-9 of a distance
 constexpr double kRounding = 1e-6;  ///< of the largest coordinate: about 16 roundings to float
 
+/// Whether the vertex lies in the middle between neighbours i and k as far as float coordinates,
+/// which are uncertain by `rounding`, can say.
+bool opposite(const RingView& ring, double rounding, std::size_t i, std::size_t k) {
+  const Vec3d offset = ring.neighbour(i) + ring.neighbour(k) - 2. * ring.centre();
+  return std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)}) <= rounding;
+}
+
+/// Whether every neighbour has another one opposite to it.
+bool point_symmetric(const RingView& ring, double rounding) {
+  const std::size_t count = ring.neighbours.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t k = 0;
+    while (k < count && (k == i || !opposite(ring, rounding, i, k))) ++k;
+    if (k == count) return false;
+  }
+  return true;
+}
+
 /// Which neighbours stand for the nearest (or the farthest): those at the distance `extreme`, and
-/// those opposite to them. All distances are squared.
+/// in a point-symmetric ring those opposite to them. All distances are squared.
 class Tie {
  public:
-  Tie(const RingView& ring, std::span<const double> distances, double extreme, double rounding)
-      : ring_(ring), distances_(distances), extreme_(extreme), rounding_(rounding) {
+  Tie(const RingView& ring, std::span<const double> distances, double extreme, bool symmetric,
+      double rounding)
+      : ring_(ring),
+        distances_(distances),
+        extreme_(extreme),
+        symmetric_(symmetric),
+        rounding_(rounding) {
     for (std::size_t i = 0; i < distances.size(); ++i) count_ += has(i);
   }
 
@@ -26,22 +49,18 @@ class Tie {
  private:
   bool has(std::size_t i) const {
     if (equal(i)) return true;
-    for (std::size_t k = 0; k < distances_.size(); ++k) {
-      if (equal(k) && opposite(i, k)) return true;
+    for (std::size_t k = 0; symmetric_ && k < distances_.size(); ++k) {
+      if (equal(k) && opposite(ring_, rounding_, i, k)) return true;
     }
     return false;
   }
   bool equal(std::size_t i) const { return std::abs(distances_[i] - extreme_) <= kTie * extreme_; }
 
-  /// Whether the vertex lies in the middle between i and k as far as float coordinates can say.
-  bool opposite(std::size_t i, std::size_t k) const {
-    const Vec3d offset = ring_.neighbour(i) + ring_.neighbour(k) - 2. * ring_.centre();
-    return std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)}) <= rounding_;
-  }
-
   const RingView& ring_;
   std::span<const double> distances_;
-  double extreme_, rounding_;
+  double extreme_;
+  bool symmetric_;
+  double rounding_;
   std::size_t count_ = 0;
 };
 
@@ -54,7 +73,8 @@ double weigh(const RingView& ring, double rounding, std::span<double> weights,
     least = std::min(least, distances[i]);
     greatest = std::max(greatest, distances[i]);
   }
-  // Whoever is tied differs in distance by at most sqrt(3) times the rounding; mostly nobody does.
+  // Opposite neighbours differ in distance by at most sqrt(3) times the rounding. Mostly nobody
+  // comes that near to the first place, and then there is no tie to settle.
   const auto reach = [rounding](double extreme) {
     return kTie * extreme + rounding * (4 * std::sqrt(extreme) + 4 * rounding);
   };
@@ -66,8 +86,9 @@ double weigh(const RingView& ring, double rounding, std::span<double> weights,
     weights[i] = 1. + (distances[i] <= near) + (distances[i] >= far);
   }
   if (near_count > 1 || far_count > 1) {
-    const Tie nearest(ring, distances, least, rounding),
-        farthest(ring, distances, greatest, rounding);
+    const bool symmetric = near_count > 1 && far_count > 1 && point_symmetric(ring, rounding);
+    const Tie nearest(ring, distances, least, symmetric, rounding);
+    const Tie farthest(ring, distances, greatest, symmetric, rounding);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       weights[i] = 1 + nearest.share(i) + farthest.share(i);
     }
