@@ -47,7 +47,8 @@ const int registered = [] {
         ->Unit(benchmark::kMillisecond);
   }
   for (const TriangulateOperation& operation : triangulate_operations()) {
-    benchmark::RegisterBenchmark(("triangulate/" + operation.info.name).c_str(), triangulate, operation)
+    benchmark::RegisterBenchmark(("triangulate/" + operation.info.name).c_str(), triangulate,
+                                 operation)
         ->DenseRange(5, 6)
         ->Unit(benchmark::kMillisecond);
   }

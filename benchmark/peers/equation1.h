@@ -5,8 +5,8 @@
 // Eq. 1 of Ozbay and Cinar over any way of naming points and neighbours, so that each peer reads,
 // stores and walks its own mesh and does the same arithmetic. P is a point with +=, - and *.
 
-/// (sum of the neighbours + the nearest + the farthest) / (n + 2); the vertex itself where it has no
-/// neighbour. `position(neighbour)` gives a P, `squared(P)` its squared length.
+/// (sum of the neighbours + the nearest + the farthest) / (n + 2); the vertex itself where it has
+/// no neighbour. `position(neighbour)` gives a P, `squared(P)` its squared length.
 template <class P, class Neighbours, class Position, class Squared>
 P equation1(const P& p, const Neighbours& neighbours, Position position, Squared squared) {
   P sum = p - p, nearest = p, farthest = p;

@@ -52,8 +52,12 @@ struct Point : vtkVector3d {
     for (int i = 0; i < 3; ++i) (*this)[i] += q[i];
     return *this;
   }
-  Point operator-(const Point& q) const { return vtkVector3d((*this)[0] - q[0], (*this)[1] - q[1], (*this)[2] - q[2]); }
-  Point operator*(double s) const { return vtkVector3d((*this)[0] * s, (*this)[1] * s, (*this)[2] * s); }
+  Point operator-(const Point& q) const {
+    return vtkVector3d((*this)[0] - q[0], (*this)[1] - q[1], (*this)[2] - q[2]);
+  }
+  Point operator*(double s) const {
+    return vtkVector3d((*this)[0] * s, (*this)[1] * s, (*this)[2] * s);
+  }
 };
 
 int main(int argc, char** argv) {
