@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "burnish/catalogue/operations.h"
 #include "burnish/core/topology.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/shapes/shapes.h"
@@ -120,8 +121,13 @@ TEST(Program, SmoothsInPhasesOneAfterAnother) {
   ASSERT_TRUE(write_mesh(folder / "box.ply", make_box({1, 1, 1}, 6)));
   const std::string in = folder / "box.ply";
   ASSERT_EQ(burnish({"smooth", in, "-o", folder / "two.ply", "-m", "one_ring_mean:iterations=2"}).status, 0);
-  ASSERT_EQ(burnish({"smooth", in, "-o", folder / "once_twice.ply", "-m", "one_ring_mean", "-m", "one_ring_mean"}).status, 0);
-  EXPECT_EQ(bytes_of(folder / "two.ply"), bytes_of(folder / "once_twice.ply"));
+  ASSERT_EQ(burnish({"smooth", in, "-o", folder / "phases.ply", "-m", "one_ring_mean", "-m", "one_ring_mean"}).status, 0);
+  const auto two = read_mesh(folder / "two.ply"), phases = read_mesh(folder / "phases.ply");
+  ASSERT_TRUE(two && phases);
+  for (std::size_t v = 0; v < two->positions.size(); ++v) {
+    // Between phases positions are rounded to float once more.
+    EXPECT_LT(norm(two->positions[v] - phases->positions[v]), 1.2e-7f) << v;
+  }
 }
 
 TEST(Program, SeveralScansWithoutPosesAreRefusedWithWhatToGive) {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string_view>
 
 #include "burnish/base/schema.h"
+#include "conformance/workpiece.h"
 
 namespace burnish::test {
 
@@ -17,7 +19,14 @@ struct Exception {
 };
 std::span<const Exception> exceptions();
 
-/// What must be set beside a field so that it matters, for example the mode that reads it.
-Settings companions(std::string_view operation, std::string_view field);
+/// What a field needs to matter: other settings, for example the mode that reads it, and another
+/// input, for example one that lacks what the field stands in for.
+struct Companion {
+  std::string_view operation, field;
+  Settings settings;
+  std::function<void(Workpiece&)> alter;
+};
+/// Empty where the field needs nothing.
+Companion companion(std::string_view operation, std::string_view field);
 
 }  // namespace burnish::test

@@ -9,9 +9,9 @@ namespace burnish::test {
 namespace {
 
 constexpr std::uint32_t kWidth = 112, kHeight = 84;
-constexpr double kFocalLength = 96;
-const Vec3d kBallCentre{0.06, -0.02, 0.75};
-constexpr double kBallRadius = 0.17;
+constexpr double kFocalLength = 400;
+const Vec3d kBallCentre{0.02, -0.01, 0.85};
+constexpr double kBallRadius = 0.07;
 
 struct Seen {
   double depth;
@@ -68,7 +68,7 @@ PointCloud scan(const Vec3d& eye, std::uint64_t seed) {
       const double jump = look(eye, beside).depth - seen.depth;
       const double sigma = 0.001 * seen.depth * seen.depth;
       const std::uint64_t chance = random.below(1000);
-      if (std::abs(jump) > 0.1 && chance < 600)
+      if (std::abs(jump) > 0.05 && chance < 600)
         seen.depth += jump * random.uniform(0.2, 0.8);
       else if (chance < 5)
         seen.depth *= random.uniform(0.5, 0.8);
@@ -129,7 +129,7 @@ void add_tetrahedron(TriangleMesh& mesh) {
 }  // namespace
 
 std::vector<PointCloud> sample_clouds() {
-  return {scan({0, 0, 0}, 1), scan({0.11, 0.01, -0.02}, 2), scan({-0.02, 0.09, 0.03}, 3)};
+  return {scan({0, 0, 0}, 1), scan({0.04, 0.01, -0.02}, 2), scan({-0.02, 0.03, 0.03}, 3)};
 }
 
 TriangleMesh sample_mesh() {

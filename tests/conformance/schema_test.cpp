@@ -21,11 +21,14 @@ bool snake_case(std::string_view name) {
 /// ends with the first value that does.
 std::string without_effect(const Subject& subject, const FieldInfo& field,
                            const std::vector<Settings>& others) {
-  const auto untouched = subject.outcome(companions(subject.name(), field.key));
+  const Companion needed = companion(subject.name(), field.key);
+  Workpiece sample = subject.sample;
+  if (needed.alter) needed.alter(sample);
+  const auto untouched = subject.outcome_of(sample, needed.settings);
   if (!untouched) return untouched.error().text();
   std::string idle;
   for (const Settings& settings : others) {
-    const auto outcome = subject.outcome(settings);
+    const auto outcome = subject.outcome_of(sample, settings);
     const bool changed = outcome && bytes(*outcome) != bytes(*untouched);
     if (changed && field.type != "choice") return {};
     if (!changed) idle += fmt::format("{}={} ", field.key, settings.back().second);

@@ -106,7 +106,7 @@ const std::vector<Subject>& subjects() {
 std::vector<Settings> variations(const Subject& subject, const FieldInfo& field) {
   std::vector<Settings> result;
   for (std::string& text : other_texts(field)) {
-    Settings settings = companions(subject.name(), field.key);
+    Settings settings = companion(subject.name(), field.key).settings;
     settings.emplace_back(field.key, std::move(text));
     const bool is_default = settings.back().second == field.default_value;
     if (!is_default && subject.resolve(settings)) result.push_back(std::move(settings));
