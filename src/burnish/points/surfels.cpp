@@ -11,13 +11,16 @@ namespace {
 
 constexpr double kAgree = 0.5;     // least cosine between normals of one surface
 constexpr double kAlong = 0.3;     // least component along the axis of a field to look into
+constexpr double kUpright = 0.4;   // least component along its column's axis of a surfel's normal
 constexpr double kWindow = 1.5;    // radius of a window, spacings
 constexpr double kDeep = 3;        // half its depth, standard deviations
 constexpr double kSharp = 1. / 3;  // sigma of a point that is fine enough, spacings
 constexpr double kWidest = 4;      // largest growth of the spacing
 constexpr double kWeak = 1. / 3;   // support of a layer that yields to one beside it
+constexpr double kFaint = 1. / 4;  // support of a point that yields to most around it
+constexpr double kAround = 3;      // how far around is, spacings
 constexpr double kApart = 0.5;     // least distance across creases, spacings
-constexpr int kRounds = 2;         // of the mean shift
+constexpr int kRounds = 4;         // of the mean shift
 
 bool agree(const Vec3d& n, const Vec3f& m) {
   return dot(n, Vec3d(m)) > kAgree;
@@ -115,6 +118,12 @@ void visit_around(const Surfels& surfels, std::size_t i, double radius, const Vi
       });
 }
 
+/// Whether the surface around surfel i is not the one that its column cuts: a stray normal put the
+/// seed into a field along which it cannot slide, and others seed the surface there.
+bool misplaced(const Surfels& surfels, std::size_t i) {
+  return std::abs(surfels.points[i].normal[surfels.index.axis(i)]) < kUpright;
+}
+
 /// Whether a layer with far more support lies above or below surfel i.
 bool weak(const Surfels& surfels, std::size_t i) {
   const Surfel& surfel = surfels.points[i];
@@ -124,6 +133,29 @@ bool weak(const Surfels& surfels, std::size_t i) {
     found |= beside && surfel.information < kWeak * surfels.points[j].information;
   });
   return found;
+}
+
+/// Whether most of what lies around surfel i, and does not face the other way, has far more
+/// support.
+bool faint(const Surfels& surfels, std::size_t i) {
+  const Surfel& surfel = surfels.points[i];
+  const auto density = [](const Surfel& s) {
+    return static_cast<double>(s.information) / (static_cast<double>(s.spacing) * s.spacing);
+  };
+  const double limit = density(surfel) / kFaint;
+  const double radius = kAround * surfel.spacing;
+  const Vec3d p(surfel.position), n(surfel.normal);
+  int better = 0, all = 0;
+  surfels.index.visit(p, n, radius, -1, [&](std::uint32_t j, std::size_t) {
+    const Surfel& other = surfels.points[j];
+    if (dot(n, Vec3d(other.normal)) <= -kAgree ||
+        squared_norm(Vec3d(other.position) - p) > radius * radius) {
+      return;
+    }
+    ++all;
+    better += density(other) > limit;
+  });
+  return 2 * better > all;
 }
 
 /// Whether a kept surfel is too near to surfel i: nearer than the spacing on the same surface, or
@@ -203,7 +235,8 @@ bool thin(const Surfels& surfels, std::vector<std::uint32_t>& kept, const Contex
   const std::size_t count = surfels.points.size();
   std::vector<std::uint8_t> is_weak(count), is_kept(count);
   const bool complete = parallel_for(context.part(0, 0.5), count, [&](IndexRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) is_weak[i] = weak(surfels, i);
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      is_weak[i] = misplaced(surfels, i) || weak(surfels, i) || faint(surfels, i);
   });
   if (!complete) return false;
   kept.clear();
