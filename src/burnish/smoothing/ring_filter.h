@@ -110,9 +110,13 @@ Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passe
       }
     }
   };
+  // To wake other threads for a few milliseconds of work costs more than they save.
+  constexpr double kSmall = 4e6;
+  const bool small = static_cast<double>(rings.items().size()) * passes.iterations < kSmall;
   for (int pass = 0; pass < passes.iterations; ++pass) {
-    const Context share = context.part(static_cast<double>(pass) / passes.iterations,
+    Context share = context.part(static_cast<double>(pass) / passes.iterations,
                                        (pass + 1.0) / passes.iterations);
+    if (small) share.threads = 1;
     if (passes.in_place) next = positions;
     const bool complete = passes.in_place ? for_in_order(share, positions.size(), move)
                                           : parallel_for(share, positions.size(), move);
