@@ -8,7 +8,9 @@
 namespace burnish::test {
 namespace fs = std::filesystem;
 
-fs::path source_folder() { return BURNISH_SOURCE_DIR; }
+fs::path source_folder() {
+  return BURNISH_SOURCE_DIR;
+}
 
 std::optional<fs::path> data_folder() {
   if (const char* given = std::getenv("BURNISH_TEST_DATA")) {
