@@ -109,5 +109,32 @@ TEST(Cursor, ReadsBothByteOrders) {
   EXPECT_EQ(cursor.byte_error("bad").text(), "f, byte 4: bad");
 }
 
+TEST(Cursor, GoesThroughLinesOfIntegers) {
+  Cursor cursor("3 0 12 999999999\n 3\t1 2  4 \r\n3 1 2\n", "f");
+  std::array<std::uint32_t, 4> row{};
+  ASSERT_TRUE(cursor.line_of_integers(row));
+  EXPECT_EQ(row, (std::array<std::uint32_t, 4>{3, 0, 12, 999999999}));
+  ASSERT_TRUE(cursor.line_of_integers(row));
+  EXPECT_EQ(row, (std::array<std::uint32_t, 4>{3, 1, 2, 4}));
+  EXPECT_EQ(cursor.line(), 3u);
+  const std::size_t before = cursor.offset();
+  EXPECT_FALSE(cursor.line_of_integers(row));
+  EXPECT_EQ(cursor.offset(), before);
+}
+
+TEST(Cursor, LeavesLinesOfAnythingElse) {
+  for (const char* text : {"", "1 2", "1 2 3 4", "1 2 3.0", "-1 2 3", "+1 2 3", "1 2 3x",
+                           "1 2 1000000000", "1\n2 3", "1 2 3 #", "\n1 2 3"}) {
+    Cursor cursor(text, "f", {.comment = '#'});
+    std::array<std::uint32_t, 3> row{};
+    EXPECT_FALSE(cursor.line_of_integers(row)) << text;
+    EXPECT_EQ(cursor.offset(), 0u) << text;
+  }
+  Cursor last("1 2 3", "f");
+  std::array<std::uint32_t, 3> row{};
+  EXPECT_TRUE(last.line_of_integers(row));
+  EXPECT_TRUE(last.at_end());
+}
+
 }  // namespace
 }  // namespace burnish

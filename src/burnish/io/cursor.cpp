@@ -61,6 +61,24 @@ std::string_view Cursor::rest_of_line() {
   return {first, static_cast<std::size_t>(last - first)};
 }
 
+bool Cursor::line_of_integers(std::span<std::uint32_t> values) {
+  const char* at = at_;
+  for (std::uint32_t& value : values) {
+    while (at != end_ && kinds_[static_cast<unsigned char>(*at)] == Kind::blank) ++at;
+    const char* first = at;
+    std::uint32_t number = 0;
+    for (; at != end_ && *at >= '0' && *at <= '9'; ++at)
+      number = number * 10 + static_cast<std::uint32_t>(*at - '0');
+    if (at == first || at - first > 9 || !ends_word(at)) return false;
+    value = number;
+  }
+  while (at != end_ && kinds_[static_cast<unsigned char>(*at)] == Kind::blank) ++at;
+  if (at != end_ && kinds_[static_cast<unsigned char>(*at)] != Kind::line_end) return false;
+  at_ = at;
+  skip_line_end();
+  return true;
+}
+
 /// The numbers that from_chars leaves: too small for a float (0) or written in another type's way.
 bool Cursor::rare_number(double& value) {
   const char* start = at_;

@@ -7,11 +7,13 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 #include "burnish/base/error.h"
+#include "burnish/io/decimal.h"
 
 namespace burnish {
 
@@ -23,8 +25,8 @@ struct TextStyle {
 };
 
 /// Reads the bytes of a file from front to back and never beyond their end; every reading function
-/// says whether it could. Text and binary reads may be mixed. Numbers are read with
-/// std::from_chars, so that the locale has no say. The bytes must outlive the cursor.
+/// says whether it could. Text and binary reads may be mixed. Numbers are what std::from_chars
+/// makes of them: the locale has no say. The bytes must outlive the cursor.
 class Cursor {
  public:
   Cursor(std::string_view bytes, std::string name, const TextStyle& style = {});
@@ -33,6 +35,14 @@ class Cursor {
   std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
   bool at_end() const { return at_ == end_; }
   std::size_t line() const { return line_; }
+
+  /// A place to come back to.
+  struct Place {
+    const char* at;
+    std::size_t line;
+  };
+  Place place() const { return {at_, line_}; }
+  void go_to(const Place& place) { at_ = place.at, line_ = place.line; }
 
   /// "NAME, line 12: message" and "NAME, byte 345: message".
   Error line_error(std::string message, ErrorCode code = ErrorCode::bad_file) const {
@@ -89,6 +99,11 @@ class Cursor {
   template <class T>
   bool number(T& value);
 
+  /// The fast way through a line that is nothing but as many unsigned integers as there are
+  /// `values`, of at most nine digits each, and goes to the next line. False, and no move, for any
+  /// other line, whatever the other functions say to it.
+  bool line_of_integers(std::span<std::uint32_t> values);
+
  private:
   enum class Kind : std::uint8_t { word, blank, line_end, comment, continuation };
 
@@ -138,6 +153,12 @@ template <class T>
 bool Cursor::number(T& value) {
   skip_blanks();
   const char* first = at_;
+  if constexpr (std::is_floating_point_v<T>) {
+    if (const char* stop = read_plain_decimal(first, end_, value); stop && ends_word(stop)) {
+      at_ = stop;
+      return true;
+    }
+  }
   if (end_ - at_ > 1 && *at_ == '+' && at_[1] != '-') ++first;
   const auto [stop, status] = std::from_chars(first, end_, value);
   if (status == std::errc{} && ends_word(stop)) {

@@ -1,435 +1,105 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "burnish/io/faces.h"
 #include "burnish/io/finish.h"
 #include "burnish/io/ply.h"
-#include "burnish/io/ply_header.h"
-#include "burnish/io/vertex_columns.h"
+#include "burnish/io/ply_scanner.h"
 
 namespace burnish {
 namespace {
 
-constexpr std::size_t kBlockRows = 4096;
-
-/// The numbers of a binary body, one after the other.
-struct BinaryScanner {
-  Cursor& cursor;
-  std::endian order;
-
-  bool begin_row() { return true; }
-  bool end_row() { return true; }
-  bool scalar(NumberType type, std::byte* out) {
-    const std::byte* bytes = cursor.take(size_of(type));
-    if (!bytes) return false;
-    std::memcpy(out, bytes, size_of(type));
-    if (order != std::endian::native) std::reverse(out, out + size_of(type));
-    return true;
-  }
-  bool skip(NumberType type, std::uint64_t count) {
-    return count <= cursor.remaining() / size_of(type) && cursor.take(count * size_of(type));
-  }
-  std::size_t most(NumberType type) const { return cursor.remaining() / size_of(type); }
-  Error error(std::string message) const {
-    return cursor.byte_error(cursor.at_end() ? "the file ends within " + message
-                                             : message + " is cut off");
-  }
-};
-
-/// The numbers of an ascii body, a row per line.
-struct TextScanner {
-  Cursor& cursor;
-
-  bool begin_row() { return cursor.next_filled_line(); }
-  bool end_row() {
-    if (!cursor.at_line_end()) return false;
-    cursor.next_line();
-    return true;
-  }
-  bool scalar(NumberType type, std::byte* out) { return parse_number(cursor, type, out); }
-  bool skip(NumberType type, std::uint64_t count) {
-    std::byte ignored[8];
-    for (; count > 0; --count) {
-      if (!scalar(type, ignored)) return false;
-    }
-    return true;
-  }
-  std::size_t most(NumberType) const { return (cursor.remaining() + 1) / 2; }
-  Error error(const std::string& what) const {
-    if (cursor.at_end()) return cursor.line_error("the file ends within " + what);
-    Cursor rest = cursor;
-    const std::string word = shown(rest.word());
-    if (word.empty()) return cursor.line_error(what + " has too few numbers");
-    return cursor.line_error(
-        fmt::format("'{}' in {} is one number too many or none of its type", word, what));
-  }
-};
-
-template <class Scanner>
-bool read_integer(Scanner& scan, NumberType type, std::int64_t& value) {
-  std::byte bytes[8];
-  if (!scan.scalar(type, bytes)) return false;
-  return with_type(type, [&](auto zero) {
-    using T = decltype(zero);
-    const T number = load<T>(bytes, false);
-    if constexpr (std::is_floating_point_v<T>) {
-      if (!(std::abs(number) < static_cast<T>(0x1p53)) || number != std::floor(number))
-        return false;
-    }
-    value = static_cast<std::int64_t>(number);
-    return true;
-  });
-}
-
+/// Goes through the elements of a file in their order.
 class PlyReader {
  public:
   PlyReader(std::string_view bytes, const std::string& name, const Vec3d& origin,
             const Context& context)
-      : cursor_(bytes, name), origin_(origin), context_(context), size_(bytes.size()) {}
+      : body_(bytes, name, origin, context) {}
 
   Result<GeometryFile> read();
-  bool wide() const { return wide_; }
-  const CommentFacts& facts() const { return header_.facts; }
+  bool wide() const { return body_.wide; }
+  const CommentFacts& facts() const { return body_.header.facts; }
 
  private:
-  bool keep_going() {
-    context_.progress(static_cast<double>(cursor_.offset()) / static_cast<double>(size_));
-    return !context_.cancelled();
-  }
   Result<void> check_claim(const PlyElement& element) const;
-  Result<void> read_vertices(const PlyElement& element);
-  Result<void> append_in_place(const PlyElement& element, VertexColumns& columns);
-  template <class Scanner>
-  Result<void> append_row_by_row(Scanner scan, const PlyElement& element, VertexColumns& columns);
-  template <class Scanner>
-  Result<void> read_faces(Scanner scan, const PlyElement& element);
-  template <class Scanner>
-  bool read_corners(Scanner scan, const PlyElement& element, const PlyProperty& indices,
-                    std::size_t most, std::vector<std::int64_t>& corners);
-  template <class Scanner>
-  Result<void> reserve_for_polygons(Scanner scan, const PlyElement& element,
-                                    const PlyProperty& indices, std::size_t rows);
-  template <class Scanner>
-  Result<void> skip_element(Scanner scan, const PlyElement& element);
-  template <class Scanner>
-  Result<void> walk_over(Scanner scan, const PlyElement& element);
-  template <class Scanner>
-  Result<void> read_element(Scanner scan, const PlyElement& element);
-  std::size_t read_triangle_run(const PlyElement& element, std::size_t corners, std::size_t most);
+  Result<void> read_element(const PlyElement& element);
+  Result<void> read_faces(const PlyElement& element);
+  Result<void> skip_element(const PlyElement& element);
+  Result<void> walk_over(const PlyElement& element);
 
-  Cursor cursor_;
-  Vec3d origin_;
-  const Context& context_;
-  std::size_t size_;
-  PlyHeader header_;
-  GeometryFile file_;
-  bool has_vertices_ = false, wide_ = false;
-  std::vector<std::pair<Cursor, const PlyElement*>> deferred_;  ///< faces before the vertices
+  PlyBody body_;
+  std::vector<std::pair<Cursor::Place, const PlyElement*>>
+      deferred_;  ///< faces before the vertices
 };
 
 /// A count is a claim: a row takes at least so many bytes, in a text two per number.
 Result<void> PlyReader::check_claim(const PlyElement& element) const {
-  const std::size_t row = header_.ascii ? 2 * element.properties.size() : element.row_bytes();
-  const std::size_t left = cursor_.remaining() + (header_.ascii ? 1 : 0);
+  const bool ascii = body_.header.ascii;
+  const std::size_t row = ascii ? 2 * element.properties.size() : element.row_bytes();
+  const std::size_t left = body_.cursor.remaining() + (ascii ? 1 : 0);
   if (row == 0 || element.count <= left / row) return {};
-  return cursor_.byte_error(
+  return body_.cursor.byte_error(
       fmt::format("the header claims {} of element '{}' with at least {} bytes each, "
                   "{} bytes are left",
-                  element.count, element.name, row, cursor_.remaining()));
+                  element.count, element.name, row, body_.cursor.remaining()));
 }
 
-Result<void> PlyReader::read_vertices(const PlyElement& element) {
-  if (has_vertices_) return cursor_.byte_error("there is a second element 'vertex'");
-  if (element.count > 0xffffffffu) {
-    return cursor_.byte_error("more than 4294967295 vertices", ErrorCode::unsupported);
-  }
-  has_vertices_ = true;
-  std::vector<Field> fields;
-  for (const PlyProperty& p : element.properties) {
-    if (p.list_count) {
-      file_.notes.push_back("the list '" + shown(p.name) + "' of the vertices is left out");
-    } else {
-      fields.push_back({p.name, p.type});
-    }
-  }
-  VertexColumns columns(std::move(fields), element.count, origin_);
-  if (!columns.has_positions()) return cursor_.byte_error("the vertices have no x, y and z");
-  wide_ = columns.wide_positions();
-  Result<void> ok = header_.ascii ? append_row_by_row(TextScanner{cursor_}, element, columns)
-                    : element.has_lists()
-                        ? append_row_by_row(BinaryScanner{cursor_, header_.order}, element, columns)
-                        : append_in_place(element, columns);
-  if (ok) columns.finish(file_);
-  return ok;
+Result<void> PlyReader::read_element(const PlyElement& element) {
+  if (element.name == "vertex") return read_ply_vertices(body_, element);
+  if (element.name == "face" || element.name == "tristrips") return read_faces(element);
+  return skip_element(element);
 }
 
-Result<void> PlyReader::append_in_place(const PlyElement& element, VertexColumns& columns) {
-  const std::size_t stride = element.row_bytes();
-  std::vector<Column> block(element.properties.size());
-  for (std::size_t done = 0; done < element.count;) {
-    const std::size_t rows = std::min<std::size_t>(kBlockRows, element.count - done);
-    const std::byte* at = cursor_.take(rows * stride);
-    if (!at) return BinaryScanner{cursor_, header_.order}.error("the vertices");
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      block[i] = {at, stride};
-      at += size_of(element.properties[i].type);
-    }
-    columns.append(block, rows, header_.order != std::endian::native);
-    done += rows;
-    if (!keep_going()) return cancelled();
-  }
-  return {};
-}
-
-/// Brings the rows into a packed block in the machine's byte order first.
-template <class Scanner>
-Result<void> PlyReader::append_row_by_row(Scanner scan, const PlyElement& element,
-                                          VertexColumns& columns) {
-  std::size_t stride = 0;
-  std::vector<std::size_t> offsets;
-  for (const PlyProperty& p : element.properties) {
-    if (p.list_count) continue;
-    offsets.push_back(stride);
-    stride += size_of(p.type);
-  }
-  std::vector<std::byte> packed(kBlockRows * stride);
-  std::vector<Column> block;
-  for (const std::size_t offset : offsets) block.push_back({packed.data() + offset, stride});
-  for (std::size_t done = 0; done < element.count;) {
-    const std::size_t rows = std::min<std::size_t>(kBlockRows, element.count - done);
-    std::byte* out = packed.data();
-    for (std::size_t row = 0; row < rows; ++row) {
-      bool ok = scan.begin_row();
-      for (const PlyProperty& p : element.properties) {
-        std::int64_t length = 0;
-        if (!ok) break;
-        if (p.list_count) {
-          ok = read_integer(scan, *p.list_count, length) && length >= 0 &&
-               scan.skip(p.type, static_cast<std::uint64_t>(length));
-        } else {
-          ok = scan.scalar(p.type, out);
-          out += size_of(p.type);
-        }
-      }
-      if (!ok || !scan.end_row())
-        return scan.error(fmt::format("vertex {} of {}", done + row, element.count));
-    }
-    columns.append(block, rows, false);
-    done += rows;
-    if (!keep_going()) return cancelled();
-  }
-  return {};
-}
-
-/// The fast way through binary faces that are triangles: rows of one fixed size, as long as they
-/// are triangles of known vertices. Gives the number of rows read, at most `most`.
-std::size_t PlyReader::read_triangle_run(const PlyElement& element, std::size_t corners,
-                                         std::size_t most) {
-  const PlyProperty& list = element.properties[corners];
-  if (size_of(*list.list_count) != 1 || size_of(list.type) != 4 || is_floating(list.type)) return 0;
-  std::size_t before = 0;
-  for (std::size_t i = 0; i < corners; ++i) before += size_of(element.properties[i].type);
-  const std::size_t row = element.row_bytes() + 12;
-  const bool swap = header_.order != std::endian::native;
-  const auto count = static_cast<std::uint32_t>(file_.mesh.positions.size());
-  most = std::min(most, cursor_.remaining() / row);
-  const auto* at = cursor_.take(0) + before;
-  std::vector<Triangle>& triangles = file_.mesh.triangles;
-  std::size_t rows = 0;
-  for (; rows < most && *at == std::byte{3}; ++rows, at += row) {
-    Triangle triangle;
-    std::memcpy(triangle.data(), at + 1, 12);
-    if (swap) {
-      for (std::uint32_t& v : triangle) v = byte_swapped(v);
-    }
-    if (triangle[0] >= count || triangle[1] >= count || triangle[2] >= count) break;
-    triangles.push_back(triangle);
-  }
-  cursor_.take(rows * row);
-  return rows;
-}
-
-/// Looks ahead over `rows` faces and reserves for their triangles: growing step by step would take
-/// twice the memory at times. What a damaged count says here is found out by the reading itself.
-template <class Scanner>
-Result<void> PlyReader::reserve_for_polygons(Scanner scan, const PlyElement& element,
-                                             const PlyProperty& indices, std::size_t rows) {
-  const Cursor here = cursor_;
-  std::size_t triangles = file_.mesh.triangles.size();
-  bool ok = true;
-  for (std::size_t row = 0; row < rows && ok; ++row) {
-    if (row % kBlockRows == 0 && context_.cancelled()) return cancelled();
-    ok = scan.begin_row();
-    for (const PlyProperty& p : element.properties) {
-      std::int64_t length = 1;
-      if (ok && p.list_count) ok = read_integer(scan, *p.list_count, length) && length >= 0;
-      ok = ok && scan.skip(p.type, static_cast<std::uint64_t>(length));
-      if (ok && &p == &indices && length > 2) triangles += static_cast<std::size_t>(length) - 2;
-    }
-    ok = ok && scan.end_row();
-  }
-  cursor_ = here;
-  if (triangles * sizeof(Triangle) > (std::size_t{48} << 20) + 7 * size_) {
-    return cursor_.byte_error(
-        fmt::format(
-            "the polygons make {} triangles, more than fits the memory allowed for a file of "
-            "{} bytes",
-            triangles, size_),
-        ErrorCode::unsupported);
-  }
-  file_.mesh.triangles.reserve(triangles);
-  return {};
-}
-
-/// Reads a row of faces up to its end and keeps the list `indices`; of more than `most` corners
-/// only one more.
-template <class Scanner>
-bool PlyReader::read_corners(Scanner scan, const PlyElement& element, const PlyProperty& indices,
-                             std::size_t most, std::vector<std::int64_t>& corners) {
-  if (!scan.begin_row()) return false;
-  for (const PlyProperty& p : element.properties) {
-    std::int64_t length = 1;
-    if (p.list_count && !(read_integer(scan, *p.list_count, length) && length >= 0)) return false;
-    if (&p != &indices) {
-      if (!scan.skip(p.type, static_cast<std::uint64_t>(length))) return false;
-      continue;
-    }
-    if (static_cast<std::uint64_t>(length) > scan.most(p.type)) return false;
-    corners.clear();
-    for (std::int64_t i = 0, corner = 0; i < length; ++i) {
-      if (!read_integer(scan, p.type, corner)) return false;
-      if (corners.size() <= most) corners.push_back(corner);
-    }
-  }
-  return true;
-}
-
-template <class Scanner>
-Result<void> PlyReader::read_faces(Scanner scan, const PlyElement& element) {
+Result<void> PlyReader::read_faces(const PlyElement& element) {
   const auto indices =
       std::find_if(element.properties.begin(), element.properties.end(), [](const PlyProperty& p) {
         return p.list_count && (p.name == "vertex_indices" || p.name == "vertex_index");
       });
-  if (indices == element.properties.end()) return skip_element(scan, element);
-  if (!has_vertices_) {  // come back when the vertices are known
-    deferred_.emplace_back(cursor_, &element);
-    return walk_over(scan, element);
-  }
-  for (const PlyProperty& p : element.properties) {
-    if (&p != &*indices)
-      file_.notes.push_back("the property '" + shown(p.name) + "' of '" + element.name +
-                            "' is left out");
-  }
-  const auto corners_at = static_cast<std::size_t>(indices - element.properties.begin());
-  const bool one_list =
-      std::count_if(element.properties.begin(), element.properties.end(),
-                    [](const PlyProperty& p) { return p.list_count.has_value(); }) == 1;
-  const bool strips = element.name == "tristrips";
-  // What a list takes while it is read must stay within the memory allowed for the file.
-  const std::size_t most = strips ? ((std::size_t{48} << 20) + 6 * size_) / 20 : kMaxCorners;
-  bool look_ahead = false;
-  bool looked_ahead = false;
-  std::vector<Triangle>& triangles = file_.mesh.triangles;
-  const std::size_t least =
-      header_.ascii ? 8 : size_of(*indices->list_count) + 3 * size_of(indices->type);
-  triangles.reserve(triangles.size() +
-                    std::min<std::size_t>(element.count, cursor_.remaining() / least + 1));
-  FaceList faces(file_.mesh.positions, triangles);
-  std::vector<std::int64_t> corners;
-  for (std::size_t face = 0; face < element.count;) {
-    if (face % kBlockRows == 0 && !keep_going()) return cancelled();
-    const std::size_t to_block_end =
-        std::min<std::size_t>(element.count, (face / kBlockRows + 1) * kBlockRows) - face;
-    if (std::is_same_v<Scanner, BinaryScanner> && one_list && !strips) {
-      const std::size_t run = read_triangle_run(element, corners_at, to_block_end);
-      face += run;
-      faces.count(run);
-      if (run > 0) continue;
-    }
-    if (look_ahead) {
-      const auto reserved = reserve_for_polygons(scan, element, *indices, element.count - face);
-      if (!reserved) return reserved;
-      look_ahead = false;
-    }
-    const auto what = [&] { return fmt::format("{} {} of {}", element.name, face, element.count); };
-    if (!read_corners(scan, element, *indices, most, corners)) return scan.error(what());
-    if (corners.size() > most) {
-      return cursor_.byte_error(fmt::format("{} has more than {} corners", what(), most),
-                                ErrorCode::unsupported);
-    }
-    if (strips) triangles.reserve(triangles.size() + corners.size());
-    if (auto added = strips ? faces.add_strip(corners) : faces.add(corners); !added) {
-      Error error = scan.error("");
-      error.code = added.error().code;
-      error.message = added.error().message;
-      return error;
-    }
-    if (!scan.end_row()) return scan.error(what());
-    if (corners.size() > 3 && !strips && !looked_ahead) look_ahead = looked_ahead = true;
-    ++face;
-  }
-  faces.note(file_.notes);
-  return {};
+  if (indices == element.properties.end()) return skip_element(element);
+  if (body_.has_vertices) return read_ply_faces(body_, element, *indices);
+  deferred_.emplace_back(body_.cursor.place(), &element);  // come back when the vertices are known
+  return walk_over(element);
 }
 
-template <class Scanner>
-Result<void> PlyReader::skip_element(Scanner scan, const PlyElement& element) {
-  file_.notes.push_back(
+Result<void> PlyReader::skip_element(const PlyElement& element) {
+  body_.file.notes.push_back(
       fmt::format("the element '{}' ({} rows) is left out", shown(element.name), element.count));
-  return walk_over(scan, element);
+  return walk_over(element);
 }
 
-template <class Scanner>
-Result<void> PlyReader::walk_over(Scanner scan, const PlyElement& element) {
+Result<void> PlyReader::walk_over(const PlyElement& element) {
   if (element.properties.empty()) return {};
-  for (std::size_t row = 0; row < element.count; ++row) {
-    if (row % kBlockRows == 0 && !keep_going()) return cancelled();
-    bool ok = scan.begin_row();
-    for (const PlyProperty& p : element.properties) {
-      std::int64_t length = 1;
-      if (ok && p.list_count) ok = read_integer(scan, *p.list_count, length) && length >= 0;
-      ok = ok && scan.skip(p.type, static_cast<std::uint64_t>(length));
+  return with_scanner(body_, [&](auto scan) -> Result<void> {
+    for (std::size_t row = 0; row < element.count; ++row) {
+      if (row % PlyBody::kBlockRows == 0 && !body_.keep_going()) return cancelled();
+      if (!walk_over_row(scan, element, [](const PlyProperty&, std::int64_t) {}))
+        return scan.error(fmt::format("{} {} of {}", element.name, row, element.count));
     }
-    if (!ok || !scan.end_row())
-      return scan.error(fmt::format("{} {} of {}", element.name, row, element.count));
-  }
-  return {};
-}
-
-template <class Scanner>
-Result<void> PlyReader::read_element(Scanner scan, const PlyElement& element) {
-  if (element.name == "vertex") return read_vertices(element);
-  if (element.name == "face" || element.name == "tristrips") return read_faces(scan, element);
-  return skip_element(scan, element);
+    return {};
+  });
 }
 
 Result<GeometryFile> PlyReader::read() {
-  auto header = read_ply_header(cursor_);
+  Cursor& cursor = body_.cursor;
+  auto header = read_ply_header(cursor);
   if (!header) return header.error();
-  header_ = std::move(*header);
-  if (header_.facts.frame_origin) origin_ = *header_.facts.frame_origin;
-  const auto read_any = [&](const PlyElement& element) {
-    return header_.ascii ? read_element(TextScanner{cursor_}, element)
-                         : read_element(BinaryScanner{cursor_, header_.order}, element);
-  };
-  for (const PlyElement& element : header_.elements) {
+  body_.header = std::move(*header);
+  if (facts().frame_origin) body_.origin = *facts().frame_origin;
+  for (const PlyElement& element : body_.header.elements) {
     if (auto ok = check_claim(element); !ok) return ok.error();
-    if (auto ok = read_any(element); !ok) return ok.error();
+    if (auto ok = read_element(element); !ok) return ok.error();
   }
-  if (!has_vertices_) return cursor_.byte_error("the file has no element 'vertex'");
-  const bool more = header_.ascii ? cursor_.next_filled_line() : !cursor_.at_end();
+  if (!body_.has_vertices) return cursor.byte_error("the file has no element 'vertex'");
+  const bool more = body_.header.ascii ? cursor.next_filled_line() : !cursor.at_end();
   if (more) {
-    file_.notes.push_back(
-        fmt::format("{} bytes after the last element are left out", cursor_.remaining()));
+    body_.file.notes.push_back(
+        fmt::format("{} bytes after the last element are left out", cursor.remaining()));
   }
   for (const auto& [place, element] : deferred_) {
-    cursor_ = place;
-    if (auto ok = read_any(*element); !ok) return ok.error();
+    cursor.go_to(place);
+    if (auto ok = read_element(*element); !ok) return ok.error();
   }
-  file_.grid = header_.facts.grid;
-  file_.viewpoint = header_.facts.viewpoint;
-  return std::move(file_);
+  body_.file.grid = facts().grid;
+  body_.file.viewpoint = facts().viewpoint;
+  return std::move(body_.file);
 }
 
 }  // namespace

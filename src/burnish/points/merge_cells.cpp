@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "burnish/core/gather.h"
 #include "burnish/points/cloud_measurements.h"
 #include "burnish/points/surfels.h"
 
 namespace burnish {
 namespace {
 
+constexpr int kRounds = 2;              // of mean shift, after the first
+constexpr int kSampleRounds = 2;        // of that which the poses are estimated with
 constexpr std::size_t kSampleStep = 4;  // rows and columns that the estimate of the poses skips
 
 /// How far poses are off: what the scatter of a sample of measurements about the surface that all
@@ -27,7 +28,7 @@ Result<double> estimate_registration(CloudMeasurements& measurements, double spa
   measurements.thin(1);
   if (!cells) return cells.error();
   Surfels surfels = every_cell(*cells, coarse);
-  if (!slide(*cells, false, surfels, context.part(0.5, 1))) return cancelled();
+  if (!slide(*cells, kSampleRounds, surfels, context.part(0.5, 1))) return cancelled();
   std::vector<double> moves;
   for (std::size_t i = 0; i < cells->cells.size(); ++i) {
     const Surfel& surfel = surfels.points[i];
@@ -129,13 +130,15 @@ Result<Merging> merge_cells(std::span<const PointCloud> clouds, const MergeCells
   if (!cells) return cells.error();
 
   Surfels surfels = seed_surfels(*cells, spacing);
-  std::vector<std::uint32_t> kept, owners;
-  if (!slide(*cells, measurements.has_sigma(), surfels, context.part(0.4, 0.8)) ||
-      !thin(surfels, kept, context.part(0.8, 0.9))) {
+  if (!slide(*cells, 1, surfels, context.part(0.4, 0.5))) return cancelled();
+  if (measurements.has_sigma()) grow(surfels);
+  std::vector<std::uint32_t> owners;
+  if (!thin_loosely(surfels, context.part(0.5, 0.6)) ||
+      !slide(*cells, kRounds, surfels, context.part(0.6, 0.8)) ||
+      !thin(surfels, context.part(0.8, 0.9)) ||
+      !find_owners(*cells, surfels, owners, context.part(0.9, 1))) {
     return cancelled();
   }
-  surfels = {gather(surfels.points, kept), surfels.index.subset(kept)};
-  if (!find_owners(*cells, surfels, owners, context.part(0.9, 1))) return cancelled();
   merging.cloud =
       cloud_of(*cells, surfels, owners, measurements.has_sigma(), params.min_observations);
   merging.cloud.frame = clouds[0].frame;

@@ -30,7 +30,7 @@ Result<SmoothingReport> smooth_gaussian(TriangleMesh& mesh, const GaussianParams
                       [factor](const RingView& ring, std::span<double> weights, std::span<double>) {
                         for (std::size_t i = 0; i < weights.size(); ++i) {
                           weights[i] =
-                              std::exp(factor * squared_norm(ring.neighbour(i) - ring.centre()));
+                              std::exp(factor * squared_norm(ring.neighbours[i] - ring.centre));
                         }
                         return 1.0;
                       });

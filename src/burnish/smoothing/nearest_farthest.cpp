@@ -15,7 +15,7 @@ constexpr double kRounding = 1e-6;  ///< of the largest coordinate: about 16 rou
 /// Whether the vertex lies in the middle between neighbours i and k as far as float coordinates,
 /// which are uncertain by `rounding`, can say.
 bool opposite(const RingView& ring, double rounding, std::size_t i, std::size_t k) {
-  const Vec3d offset = ring.neighbour(i) + ring.neighbour(k) - 2. * ring.centre();
+  const Vec3d offset = ring.neighbours[i] + ring.neighbours[k] - 2. * ring.centre;
   return std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)}) <= rounding;
 }
 
@@ -69,7 +69,7 @@ double weigh(const RingView& ring, double rounding, std::span<double> weights,
              std::span<double> distances) {
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    distances[i] = squared_norm(ring.neighbour(i) - ring.centre());
+    distances[i] = squared_norm(ring.neighbours[i] - ring.centre);
     least = std::min(least, distances[i]);
     greatest = std::max(greatest, distances[i]);
   }
@@ -79,11 +79,13 @@ double weigh(const RingView& ring, double rounding, std::span<double> weights,
     return kTie * extreme + rounding * (4 * std::sqrt(extreme) + 4 * rounding);
   };
   const double near = least + reach(least), far = greatest - reach(greatest);
+  // Who is nearest and farthest cannot be predicted, so no branch may depend on it.
   int near_count = 0, far_count = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    near_count += distances[i] <= near;
-    far_count += distances[i] >= far;
-    weights[i] = 1. + (distances[i] <= near) + (distances[i] >= far);
+    const int is_near = distances[i] <= near, is_far = distances[i] >= far;
+    near_count += is_near;
+    far_count += is_far;
+    weights[i] = static_cast<double>(1 + is_near + is_far);
   }
   if (near_count > 1 || far_count > 1) {
     const bool symmetric = near_count > 1 && far_count > 1 && point_symmetric(ring, rounding);

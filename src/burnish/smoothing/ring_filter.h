@@ -14,14 +14,11 @@
 // the library's interface.
 namespace burnish {
 
-/// A vertex and the neighbours that the boundary rule gives it, never none.
+/// A vertex and the neighbours that the boundary rule gives it, never none. They are brought
+/// together before anything is computed of them: what follows then runs over a few numbers in a row.
 struct RingView {
-  std::uint32_t vertex;
-  std::span<const std::uint32_t> neighbours;
-  const std::vector<Vec3d>& positions;
-
-  const Vec3d& centre() const { return positions[vertex]; }
-  const Vec3d& neighbour(std::size_t i) const { return positions[neighbours[i]]; }
+  Vec3d centre;
+  std::span<const Vec3d> neighbours;
 };
 
 struct RingPasses {
@@ -85,20 +82,26 @@ Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passe
 
   const auto move = [&](IndexRange range) {
     std::vector<double> buffer(2 * longest);
+    std::vector<Vec3d> ring(longest);
     for (std::size_t v = range.begin; v < range.end; ++v) {
       const auto row = rings.row(v);
       if (row.empty()) {
         next[v] = positions[v];
         continue;
       }
+      for (std::size_t i = 0; i < row.size(); ++i) ring[i] = positions[row[i]];
+      const std::span<const Vec3d> neighbours(ring.data(), row.size());
       const std::span<double> weights(buffer.data(), row.size());
-      const double own = weigh(RingView{static_cast<std::uint32_t>(v), row, positions}, weights,
+      const double own = weigh(RingView{positions[v], neighbours}, weights,
                                std::span<double>(buffer.data() + longest, row.size()));
       double total = own;
       Vec3d sum = own * source[v];
+      if (passes.in_place) {
+        for (std::size_t i = 0; i < row.size(); ++i) ring[i] = source[row[i]];
+      }
       for (std::size_t i = 0; i < row.size(); ++i) {
         total += weights[i];
-        sum += weights[i] * source[row[i]];
+        sum += weights[i] * ring[i];
       }
       next[v] = (1 - passes.damping) * (sum / total) + passes.damping * source[v];
       if (sigma.wanted()) {
@@ -107,9 +110,13 @@ Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passe
       }
     }
   };
+  // To wake other threads for a few milliseconds of work costs more than they save.
+  constexpr double kSmall = 4e6;
+  const bool small = static_cast<double>(rings.items().size()) * passes.iterations < kSmall;
   for (int pass = 0; pass < passes.iterations; ++pass) {
-    const Context share = context.part(static_cast<double>(pass) / passes.iterations,
+    Context share = context.part(static_cast<double>(pass) / passes.iterations,
                                        (pass + 1.0) / passes.iterations);
+    if (small) share.threads = 1;
     if (passes.in_place) next = positions;
     const bool complete = passes.in_place ? for_in_order(share, positions.size(), move)
                                           : parallel_for(share, positions.size(), move);
