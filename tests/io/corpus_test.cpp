@@ -21,11 +21,11 @@ int feed(const std::filesystem::path& folder) {
 }
 
 TEST(Corpus, SeedsOfTheFuzzersKeepThePromises) {
-  EXPECT_GE(feed(std::filesystem::path(BURNISH_SOURCE_DIR) / "fuzz" / "seeds"), 14);
+  EXPECT_GE(feed(test::source_folder() / "fuzz" / "seeds"), 14);
 }
 
 TEST(Corpus, EachSeedIsAValidFileOfItsFormat) {
-  const auto seeds = std::filesystem::path(BURNISH_SOURCE_DIR) / "fuzz" / "seeds";
+  const auto seeds = test::source_folder() / "fuzz" / "seeds";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(seeds)) {
     if (!entry.is_regular_file()) continue;
     const std::string format = entry.path().parent_path().filename();
