@@ -12,16 +12,20 @@ std::string sensor_names() {
 }
 
 void add_frame_options(CLI::App* verb, FrameTexts& texts) {
-  verb->add_option("--poses", texts.poses,
-                   "poses of the camera in the world: lines x y z qx qy qz qw, a TUM trajectory, or a "
-                   "Redwood trajectory.log; default: what lies beside the frames");
-  auto* camera = verb->add_option("--camera", texts.camera, "focal lengths and principal point, pixels")
-                     ->type_name("fx,fy,cx,cy");
+  verb->add_option(
+      "--poses", texts.poses,
+      "poses of the camera in the world: lines x y z qx qy qz qw, a TUM trajectory, or a "
+      "Redwood trajectory.log; default: what lies beside the frames");
+  auto* camera =
+      verb->add_option("--camera", texts.camera, "focal lengths and principal point, pixels")
+          ->type_name("fx,fy,cx,cy");
   verb->add_option("--sensor", texts.sensor, "whose camera and noise: " + sensor_names());
-  verb->add_option("--depth_scale", texts.depth_scale,
-                   "metres per unit of the depth images; default: 0.001 for whole numbers, 1 for floats")
+  verb->add_option(
+          "--depth_scale", texts.depth_scale,
+          "metres per unit of the depth images; default: 0.001 for whole numbers, 1 for floats")
       ->type_name("M");
-  camera->description(camera->get_description() + "; default: from a file beside the frames, or the sensor's");
+  camera->description(camera->get_description() +
+                      "; default: from a file beside the frames, or the sensor's");
 }
 
 Result<FrameOptions> read_frame_texts(const FrameTexts& texts) {
@@ -40,7 +44,9 @@ Result<FrameOptions> read_frame_texts(const FrameTexts& texts) {
     const Result<double> scale = parse_quantity(texts.depth_scale, Quantity::length);
     if (!scale) return scale.error();
     if (!(*scale > 0)) {
-      return Error{ErrorCode::invalid_argument, "--depth_scale must be positive, it is " + texts.depth_scale, {}};
+      return Error{ErrorCode::invalid_argument,
+                   "--depth_scale must be positive, it is " + texts.depth_scale,
+                   {}};
     }
     options.depth_scale = *scale;
   }

@@ -18,7 +18,8 @@ std::string typed_command(int count, char** words) {
   std::string text = "burnish";
   for (int i = 1; i < count; ++i) {
     const std::string word = words[i];
-    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$*?()[]{}<>|&;#~`") == std::string::npos;
+    const bool plain =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$*?()[]{}<>|&;#~`") == std::string::npos;
     text += plain ? " " + word : " '" + word + "'";
   }
   return text;

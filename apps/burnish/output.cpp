@@ -12,7 +12,8 @@ Result<void> check_output(const std::string& path) {
   namespace fs = std::filesystem;
   const fs::path file(path);
   std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   std::string known;
   bool writable = false;
   for (const FileFormat& format : geometry_formats()) {
@@ -23,7 +24,8 @@ Result<void> check_output(const std::string& path) {
     }
   }
   if (!writable) {
-    return Error{ErrorCode::unsupported, fmt::format("'{}' is no format to write, known: {}", ending, known), path};
+    return Error{ErrorCode::unsupported,
+                 fmt::format("'{}' is no format to write, known: {}", ending, known), path};
   }
   return check_folder_of(path);
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "burnish/core/topology.h"
 
 namespace burnish::app {
@@ -20,13 +22,24 @@ void say_steps(const Session& session, const Record& record) {
 }
 
 void say_comparisons(const Session& session, const Record& record) {
+  const auto value = [](const Facts& facts, std::string_view key) {
+    const auto found =
+        std::find_if(facts.begin(), facts.end(), [&](const Fact& f) { return f.key == key; });
+    return found == facts.end() ? Fact{} : *found;
+  };
+  double raw = 0;
   for (const auto& [name, facts] : record.comparisons) {
-    std::string line = name + " against the truth:";
-    const char* separator = " ";
-    for (const Fact& fact : facts) {
-      line += fmt::format("{}{} {}", separator, fact.key, readable(fact));
-      separator = ", ";
-    }
+    // Raw points are compared with the vertices that came of them, not with all of the surface.
+    const bool points = !value(facts, "rms").key.empty();
+    const std::string prefix = points ? "" : "vertices_";
+    const Fact rms = value(facts, prefix + "rms");
+    if (points) raw = rms.value;
+    std::string line =
+        fmt::format("{} against the truth: rms {}, mean {}, 95 % within {}, max {}", name,
+                    readable(rms), readable(value(facts, prefix + "mean")),
+                    readable(value(facts, prefix + "p95")), readable(value(facts, prefix + "max")));
+    if (!points && raw > 0)
+      line += fmt::format("; rms is {:.2f} of the raw points'", rms.value / raw);
     say(session, line);
   }
 }

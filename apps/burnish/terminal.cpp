@@ -13,7 +13,9 @@ constexpr auto kPatience = std::chrono::seconds(1);
 constexpr auto kRedraw = std::chrono::milliseconds(100);
 constexpr int kBarWidth = 30;
 
-double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+double seconds(std::chrono::steady_clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
 
 }  // namespace
 
@@ -24,7 +26,9 @@ TerminalProgress::TerminalProgress(bool quiet)
       stage_start_(start_),
       last_draw_(start_) {}
 
-TerminalProgress::~TerminalProgress() { finish_stage(); }
+TerminalProgress::~TerminalProgress() {
+  finish_stage();
+}
 
 void TerminalProgress::on_stage(std::string_view name) {
   finish_stage();
@@ -64,14 +68,22 @@ void TerminalProgress::finish_stage() {
 
 int exit_status(ErrorCode code) {
   switch (code) {
-    case ErrorCode::invalid_argument: return 2;
-    case ErrorCode::not_found: return 3;
-    case ErrorCode::bad_file: return 4;
-    case ErrorCode::unsupported: return 5;
-    case ErrorCode::bad_geometry: return 6;
-    case ErrorCode::io_failure: return 7;
-    case ErrorCode::out_of_memory: return 8;
-    case ErrorCode::cancelled: return 130;
+    case ErrorCode::invalid_argument:
+      return 2;
+    case ErrorCode::not_found:
+      return 3;
+    case ErrorCode::bad_file:
+      return 4;
+    case ErrorCode::unsupported:
+      return 5;
+    case ErrorCode::bad_geometry:
+      return 6;
+    case ErrorCode::io_failure:
+      return 7;
+    case ErrorCode::out_of_memory:
+      return 8;
+    case ErrorCode::cancelled:
+      return 130;
   }
   return 1;
 }

@@ -27,7 +27,8 @@ std::string readable(const Fact& fact) {
   if (fact.unit == "m") return readable_length(fact.value);
   if (fact.unit == "rad") return fmt::format("{:.4g} deg", fact.value * 180 / std::numbers::pi);
   const bool whole = fact.value == std::floor(fact.value) && std::abs(fact.value) < 1e15;
-  const std::string number = whole ? fmt::format("{:.0f}", fact.value) : fmt::format("{:.5g}", fact.value);
+  const std::string number =
+      whole ? fmt::format("{:.0f}", fact.value) : fmt::format("{:.5g}", fact.value);
   return fact.unit.empty() ? number : number + " " + fact.unit;
 }
 

@@ -34,7 +34,9 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-void write_text(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream(path) << text;
+}
 
 TEST(Program, SaysItsVersion) {
   const Outcome outcome = burnish({"--version"});
@@ -43,7 +45,8 @@ TEST(Program, SaysItsVersion) {
 }
 
 TEST(Program, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb : {"reconstruct", "triangulate", "smooth", "convert", "measure", "simulate", "reproduce", "list"}) {
+  for (const char* verb : {"reconstruct", "triangulate", "smooth", "convert", "measure", "simulate",
+                           "reproduce", "list"}) {
     const Outcome outcome = burnish({verb, "--help"});
     EXPECT_EQ(outcome.status, 0) << verb;
     EXPECT_NE(outcome.out.find(std::string("burnish ") + verb), std::string::npos) << outcome.out;
@@ -58,7 +61,8 @@ TEST(Program, ListNamesEveryMethodOfTheCatalogueWithItsParameters) {
     for (const OperationInfo& info : operations_of(family)) {
       EXPECT_NE(outcome.out.find(info.name), std::string::npos) << info.name;
       for (const FieldInfo& field : info.fields) {
-        EXPECT_NE(outcome.out.find(field.key + "=" + field.default_value), std::string::npos) << field.key;
+        EXPECT_NE(outcome.out.find(field.key + "=" + field.default_value), std::string::npos)
+            << field.key;
       }
     }
   }
@@ -87,8 +91,9 @@ TEST(Program, NamesTheFileThatIsMissingOrDamaged) {
   EXPECT_EQ(missing.status, 3);
   EXPECT_NE(missing.err.find("none.ply"), std::string::npos);
 
-  write_text(folder / "bad.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                                 "property float z\nend_header\n0 0 0\n1 0\n");
+  write_text(folder / "bad.ply",
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+             "property float z\nend_header\n0 0 0\n0.125 0.25\n0 1 0\n");
   const Outcome damaged = burnish({"convert", folder / "bad.ply", folder / "out.ply"});
   EXPECT_EQ(damaged.status, 4);
   EXPECT_NE(damaged.err.find("bad.ply"), std::string::npos) << damaged.err;
@@ -103,14 +108,16 @@ TEST(Program, RefusesAnOutputThatCannotBeBeforeItWorks) {
   for (const std::string out : {folder / "out.xyz2", folder / "none" / "out.ply"}) {
     const Outcome outcome = burnish({"smooth", in, "-o", out, "--method", "one_ring_mean"});
     EXPECT_NE(outcome.status, 0);
-    EXPECT_NE(outcome.err.find(fs::path(out).parent_path().filename().string()), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(fs::path(out).parent_path().filename().string()), std::string::npos)
+        << outcome.err;
   }
 }
 
 TEST(Program, QuietPrintsNothing) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "box.ply", make_box()));
-  const Outcome outcome = burnish({"-q", "smooth", folder / "box.ply", "-o", folder / "out.ply", "-m", "one_ring_mean"});
+  const Outcome outcome = burnish(
+      {"-q", "smooth", folder / "box.ply", "-o", folder / "out.ply", "-m", "one_ring_mean"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out + outcome.err, "");
   EXPECT_TRUE(read_mesh(folder / "out.ply"));
@@ -120,8 +127,13 @@ TEST(Program, SmoothsInPhasesOneAfterAnother) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "box.ply", make_box({1, 1, 1}, 6)));
   const std::string in = folder / "box.ply";
-  ASSERT_EQ(burnish({"smooth", in, "-o", folder / "two.ply", "-m", "one_ring_mean:iterations=2"}).status, 0);
-  ASSERT_EQ(burnish({"smooth", in, "-o", folder / "phases.ply", "-m", "one_ring_mean", "-m", "one_ring_mean"}).status, 0);
+  ASSERT_EQ(
+      burnish({"smooth", in, "-o", folder / "two.ply", "-m", "one_ring_mean:iterations=2"}).status,
+      0);
+  ASSERT_EQ(burnish({"smooth", in, "-o", folder / "phases.ply", "-m", "one_ring_mean", "-m",
+                     "one_ring_mean"})
+                .status,
+            0);
   const auto two = read_mesh(folder / "two.ply"), phases = read_mesh(folder / "phases.ply");
   ASSERT_TRUE(two && phases);
   for (std::size_t v = 0; v < two->positions.size(); ++v) {
@@ -134,7 +146,8 @@ TEST(Program, SeveralScansWithoutPosesAreRefusedWithWhatToGive) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "a.ply", make_sphere()));
   ASSERT_TRUE(write_mesh(folder / "b.ply", make_sphere()));
-  const Outcome outcome = burnish({"reconstruct", folder / "a.ply", folder / "b.ply", "-o", folder / "out.ply"});
+  const Outcome outcome =
+      burnish({"reconstruct", folder / "a.ply", folder / "b.ply", "-o", folder / "out.ply"});
   EXPECT_EQ(outcome.status, 2) << outcome.err;
   EXPECT_NE(outcome.err.find("--poses"), std::string::npos) << outcome.err;
 }
@@ -142,8 +155,9 @@ TEST(Program, SeveralScansWithoutPosesAreRefusedWithWhatToGive) {
 TEST(Program, InterruptStopsWithinASecondAndLeavesNoFile) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "grid.ply", make_grid(500, 500, 0.001)));
-  const Outcome outcome =
-      burnish({"smooth", folder / "grid.ply", "-o", folder / "out.ply", "-m", "one_ring_mean:iterations=100000"}, 1000);
+  const Outcome outcome = burnish({"smooth", folder / "grid.ply", "-o", folder / "out.ply", "-m",
+                                   "one_ring_mean:iterations=100000"},
+                                  1000);
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_LT(outcome.seconds, 2.0);
   EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"grid.ply"});
@@ -151,7 +165,8 @@ TEST(Program, InterruptStopsWithinASecondAndLeavesNoFile) {
 
 TEST(Program, InterruptWhileSimulatingLeavesNoHalfFrame) {
   const TemporaryFolder folder;
-  const Outcome outcome = burnish({"simulate", "teapot", "-o", folder / "scan", "--views", "500"}, 1500);
+  const Outcome outcome =
+      burnish({"simulate", "teapot", "-o", folder / "scan", "--views", "500"}, 1500);
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_LT(outcome.seconds, 2.5);
   for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
@@ -163,7 +178,8 @@ TEST(Program, InterruptWhileSimulatingLeavesNoHalfFrame) {
 TEST(Program, ScansAndReconstructsASphereTheSameForAnyThreadCount) {
   const TemporaryFolder folder;
   const std::string scan = folder / "scan";
-  const Outcome simulated = burnish({"simulate", "sphere", "-o", scan, "--views", "8", "--seed", "7"});
+  const Outcome simulated =
+      burnish({"simulate", "sphere", "-o", scan, "--views", "8", "--seed", "7"});
   ASSERT_EQ(simulated.status, 0) << simulated.err;
   std::string first;
   for (const char* threads : {"1", "2", "3", "8"}) {

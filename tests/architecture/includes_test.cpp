@@ -9,12 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "support/test_data.h"
+
 // The house as docs/architecture.md has it: its table against what the sources include and link.
 namespace burnish {
 namespace {
 namespace fs = std::filesystem;
 
-const fs::path kRoot = BURNISH_SOURCE_DIR;
+const fs::path kRoot = test::source_folder();
 const fs::path kModules = kRoot / "src" / "burnish";
 
 using Rules = std::map<std::string, std::set<std::string>>;

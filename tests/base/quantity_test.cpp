@@ -53,11 +53,19 @@ TEST(Quantity, UnitsAreSI) {
   EXPECT_EQ(unit_of(Quantity::number), "");
 }
 
-TEST(Quantity, ShortestReadsBackAsTheSameNumber) {
-  for (const double value : {0.1, 1.0 / 3, 1e-300, 12345678.9, std::numbers::pi / 180, 5e-324}) {
-    EXPECT_EQ(parse_quantity(shortest(value), Quantity::number).value_or(-1.0), value);
+TEST(Quantity, TextReadsBackAsTheSameNumber) {
+  for (const double value : {0.1, 1.0 / 3, 1e-300, 12345678.9, std::numbers::pi / 180, 5e-324, 0.0}) {
+    for (const Quantity quantity : {Quantity::number, Quantity::length, Quantity::angle}) {
+      EXPECT_EQ(parse_quantity(quantity_text(value, quantity), quantity).value_or(-1.0), value);
+    }
   }
-  EXPECT_EQ(shortest(0.1), "0.1");
+  EXPECT_EQ(quantity_text(0.1, Quantity::number), "0.1");
+}
+
+TEST(Quantity, WholeDegreesAreWrittenAsDegrees) {
+  EXPECT_EQ(quantity_text(80 * (std::numbers::pi / 180), Quantity::angle), "80deg");
+  EXPECT_EQ(quantity_text(0.5, Quantity::angle), "0.5");
+  EXPECT_EQ(quantity_text(0, Quantity::angle), "0");
 }
 
 }  // namespace

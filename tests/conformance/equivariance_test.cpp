@@ -42,7 +42,8 @@ class Equivariance : public Conformance {
     for (const FieldInfo& field : subject().info.fields) {
       if (field.type != "length") continue;
       settings.emplace_back(field.key,
-                            shortest(factor * std::strtod(field.default_value.c_str(), nullptr)));
+                            quantity_text(factor * std::strtod(field.default_value.c_str(), nullptr),
+                                          Quantity::length));
     }
     return settings;
   }

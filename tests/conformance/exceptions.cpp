@@ -7,7 +7,6 @@ std::span<const Exception> exceptions() {
       {"triangulate/global", "turned by a quarter", "triangles come in an order along the axes"},
       {"triangulate/global", "rotated", "triangles come in an order along the axes"},
       {"merge/cells", "turned by a quarter", "its cells are columns along the axes"},
-      {"merge/cells", "relabelled", "what it finds by itself are medians over every 61st point"},
       {"merge/cells", "rotated", "its cells are columns along the axes"},
   };
   return table;

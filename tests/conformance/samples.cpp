@@ -126,13 +126,7 @@ void add_tetrahedron(TriangleMesh& mesh) {
   }
 }
 
-}  // namespace
-
-std::vector<PointCloud> sample_clouds() {
-  return {scan({0, 0, 0}, 1), scan({0.04, 0.01, -0.02}, 2), scan({-0.02, 0.03, 0.03}, 3)};
-}
-
-TriangleMesh sample_mesh() {
+TriangleMesh make_sample_mesh() {
   TriangleMesh mesh;
   Random random(5);
   add_height_field(mesh, 90, 70, 0, random,
@@ -145,6 +139,20 @@ TriangleMesh sample_mesh() {
   }
   mesh.attributes.normals = vertex_normals(mesh);
   describe(mesh.attributes, mesh.positions.size(), random);
+  return mesh;
+}
+
+}  // namespace
+
+// Made once: every test is a process of its own, and making them takes longer than most tests.
+const std::vector<PointCloud>& sample_clouds() {
+  static const std::vector<PointCloud> clouds{scan({0, 0, 0}, 1), scan({0.04, 0.01, -0.02}, 2),
+                                              scan({-0.02, 0.03, 0.03}, 3)};
+  return clouds;
+}
+
+const TriangleMesh& sample_mesh() {
+  static const TriangleMesh mesh = make_sample_mesh();
   return mesh;
 }
 

@@ -7,10 +7,10 @@ namespace burnish::test {
 /// Three organized clouds of one scene from three places: a wavy slanted wall with a ball before
 /// it, with noise, missing pixels, points that fly between ball and wall, stray points, and every
 /// attribute. No two distances in it are equal.
-std::vector<PointCloud> sample_clouds();
+const std::vector<PointCloud>& sample_clouds();
 
 /// A noisy height field with a hole and random diagonals, a small one, a tetrahedron, an unused
 /// vertex, and every attribute.
-TriangleMesh sample_mesh();
+const TriangleMesh& sample_mesh();
 
 }  // namespace burnish::test

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "conformance/suite.h"
+#include "support/test_data.h"
 
 // What an operation says of itself must be so.
 namespace burnish::test {
@@ -89,7 +90,7 @@ TEST_P(SchemaOf, NamesAndTextsAreInOrder) {
 
 TEST_P(SchemaOf, ItsPaperIsInTheBibliography) {
   if (subject().info.paper.empty()) return;
-  std::ifstream file(BURNISH_SOURCE_DIR "/docs/bibliography.md");
+  std::ifstream file(source_folder() / "docs/bibliography.md");
   std::stringstream text;
   text << file.rdbuf();
   EXPECT_NE(text.str().find("\n## " + subject().info.paper + "\n"), std::string::npos)

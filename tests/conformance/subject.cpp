@@ -72,7 +72,8 @@ std::vector<std::string> other_texts(const FieldInfo& field) {
     }
     return texts;
   }
-  const double value = std::strtod(field.default_value.c_str(), nullptr);
+  const Quantity quantity = field.type == "angle" ? Quantity::angle : Quantity::number;
+  const double value = parse_quantity(field.default_value, quantity).value();
   if (field.type == "integer") {
     for (const double other : {value + 1, value * 2, value - 1, value + 10, 0.0, 1.0}) {
       texts.push_back(std::to_string(static_cast<long>(other)));
@@ -81,7 +82,7 @@ std::vector<std::string> other_texts(const FieldInfo& field) {
   }
   for (const double other :
        {value * 1.5, value / 1.5, value * 4, value / 4, 0.5, 0.01, 0.05, 0.0, 1.0}) {
-    texts.push_back(shortest(other));
+    texts.push_back(quantity_text(other, quantity));
   }
   return texts;
 }

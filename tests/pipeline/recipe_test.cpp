@@ -35,8 +35,9 @@ TEST(Recipe, ChecksEveryStep) {
   const std::vector<Method> unknown{{"no_such_method", {}}};
   for (const auto& spoil : std::initializer_list<std::function<void(Recipe&)>>{
            [&](Recipe& r) { r.clean_scan = unknown; }, [&](Recipe& r) { r.merge = unknown[0]; },
-           [&](Recipe& r) { r.clean_merged = unknown; }, [&](Recipe& r) { r.triangulate = unknown[0]; },
-           [&](Recipe& r) { r.repair = unknown; }, [&](Recipe& r) { r.smooth = unknown; }}) {
+           [&](Recipe& r) { r.clean_merged = unknown; },
+           [&](Recipe& r) { r.triangulate = unknown[0]; }, [&](Recipe& r) { r.repair = unknown; },
+           [&](Recipe& r) { r.smooth = unknown; }}) {
     Recipe recipe;
     spoil(recipe);
     EXPECT_FALSE(check(recipe));

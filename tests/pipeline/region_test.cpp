@@ -23,13 +23,14 @@ TEST(Region, ReadsABall) {
 }
 
 TEST(Region, RefusesWhatIsNeitherAndWhatIsEmpty) {
-  for (const char* text : {"", "box", "box:", "box:1,2,3", "cube:0,0,0,1,1,1", "sphere:0,0,0", "box:0,0,0,1,1,1,1",
-                           "box:0,0,0,1,1,nan", "box:0,0,0,1,1,0", "sphere:0,0,0,0", "sphere:0,0,0,-1",
-                           "sphere:0,0,0,1kg"}) {
+  for (const char* text : {"", "box", "box:", "box:1,2,3", "cube:0,0,0,1,1,1", "sphere:0,0,0",
+                           "box:0,0,0,1,1,1,1", "box:0,0,0,1,1,nan", "box:0,0,0,1,1,0",
+                           "sphere:0,0,0,0", "sphere:0,0,0,-1", "sphere:0,0,0,1kg"}) {
     const auto region = parse_region(text);
     ASSERT_FALSE(region) << text;
     EXPECT_EQ(region.error().code, ErrorCode::invalid_argument) << text;
-    EXPECT_NE(region.error().message.find('\''), std::string::npos) << "the message quotes what came: " << text;
+    EXPECT_NE(region.error().message.find('\''), std::string::npos)
+        << "the message quotes what came: " << text;
   }
 }
 

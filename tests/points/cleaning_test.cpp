@@ -76,7 +76,7 @@ TEST(RemoveFlyingPixels, RefusesAnUnorganizedCloud) {
   cloud.positions = {{1, 2, 3}};
   const auto report = remove_flying_pixels(cloud);
   ASSERT_FALSE(report);
-  EXPECT_EQ(report.error().code, ErrorCode::invalid_argument);
+  EXPECT_EQ(report.error().code, ErrorCode::bad_geometry);
 }
 
 TEST(RemoveFlyingPixels, LeavesTheCloudWhenCancelled) {

@@ -14,14 +14,16 @@ TriangleMesh scene() {
   const auto append = [&](const TriangleMesh& part, float x) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const Vec3f& p : part.positions) mesh.positions.push_back(p + Vec3f{x, 0, 0});
-    for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
+    for (const auto& [a, b, c] : part.triangles)
+      mesh.triangles.push_back({a + first, b + first, c + first});
   };
   append(small, 50);
   TriangleMesh speck;
   speck.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   speck.triangles = {{0, 1, 2}};
   append(speck, 100);
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) mesh.attributes.sigma.push_back(static_cast<float>(v));
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    mesh.attributes.sigma.push_back(static_cast<float>(v));
   return mesh;
 }
 

@@ -26,7 +26,8 @@ std::string contents(const std::filesystem::path& path) {
 
 }  // namespace
 
-Outcome run_program(const std::vector<std::string>& words, std::chrono::milliseconds interrupt_after) {
+Outcome run_program(const std::vector<std::string>& words,
+                    std::chrono::milliseconds interrupt_after) {
   const TemporaryFolder folder;
   const std::string out = folder / "out", err = folder / "err";
   posix_spawn_file_actions_t actions;
@@ -42,7 +43,8 @@ Outcome run_program(const std::vector<std::string>& words, std::chrono::millisec
   const auto start = std::chrono::steady_clock::now();
   Outcome outcome;
   pid_t child = 0;
-  const int failed = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  const int failed =
+      posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed) {
     outcome.status = 127;

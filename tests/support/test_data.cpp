@@ -8,11 +8,15 @@
 namespace burnish::test {
 namespace fs = std::filesystem;
 
+fs::path source_folder() {
+  return BURNISH_SOURCE_DIR;
+}
+
 std::optional<fs::path> data_folder() {
   if (const char* given = std::getenv("BURNISH_TEST_DATA")) {
     return fs::is_directory(given) ? std::optional<fs::path>(given) : std::nullopt;
   }
-  const fs::path beside = fs::path(BURNISH_SOURCE_DIR).parent_path() / "shared" / "data";
+  const fs::path beside = source_folder().parent_path() / "shared" / "data";
   return fs::is_directory(beside) ? std::optional<fs::path>(beside) : std::nullopt;
 }
 

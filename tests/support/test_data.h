@@ -6,6 +6,9 @@
 
 namespace burnish::test {
 
+/// The root of the checkout that these tests were built from.
+std::filesystem::path source_folder();
+
 /// The folder of real scans that tests may read: $BURNISH_TEST_DATA, or shared/data beside the
 /// checkout; none where there is neither.
 std::optional<std::filesystem::path> data_folder();

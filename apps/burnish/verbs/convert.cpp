@@ -13,8 +13,8 @@ struct Options {
 };
 
 PointCloud cloud_of(GeometryFile file) {
-  return {std::move(file.mesh.positions), std::move(file.mesh.attributes), file.grid, file.viewpoint,
-          file.mesh.frame};
+  return {std::move(file.mesh.positions), std::move(file.mesh.attributes), file.grid,
+          file.viewpoint, file.mesh.frame};
 }
 
 Result<void> convert(const Options& options, const Session& session, const Context& context) {
@@ -22,7 +22,8 @@ Result<void> convert(const Options& options, const Session& session, const Conte
   context.stage("reading " + options.input);
   Result<GeometryFile> file = read_geometry(options.input, context.part(0, 0.5));
   if (!file) return std::move(file).error();
-  for (const std::string& note : file->notes) say(session, fmt::format("{}: {}", options.input, note));
+  for (const std::string& note : file->notes)
+    say(session, fmt::format("{}: {}", options.input, note));
   context.stage("writing " + options.output);
   const WriteOptions how{.ascii = options.ascii, .comments = {}};
   const Result<WriteReport> written =
@@ -37,8 +38,10 @@ Result<void> convert(const Options& options, const Session& session, const Conte
 Action add_convert(CLI::App& app) {
   auto* verb = app.add_subcommand("convert", "Convert a mesh or cloud to another format.");
   auto options = std::make_shared<Options>();
-  verb->add_option("IN", options->input, "a mesh or cloud: PLY, OBJ, STL, OFF, PCD, XYZ")->required();
-  verb->add_option("OUT", options->output, "the file to write; its ending names the format")->required();
+  verb->add_option("IN", options->input, "a mesh or cloud: PLY, OBJ, STL, OFF, PCD, XYZ")
+      ->required();
+  verb->add_option("OUT", options->output, "the file to write; its ending names the format")
+      ->required();
   verb->add_flag("--ascii", options->ascii, "write text where the format has both");
   verb->footer("Example:\n  burnish convert bunny.ply bunny.stl");
   return [options](const Session& s, const Context& c) { return convert(*options, s, c); };

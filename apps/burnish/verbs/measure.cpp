@@ -25,28 +25,40 @@ using Section = std::pair<std::string, Facts>;
 
 Facts topology_facts(const TriangleMesh& mesh) {
   const Topology t = topology(mesh);
-  const auto fact = [](const char* key, auto value) { return Fact{key, static_cast<double>(value), ""}; };
-  return {fact("vertices", mesh.positions.size()), fact("triangles", mesh.triangles.size()), fact("edges", t.edges),
-          fact("components", t.components), fact("euler_number", t.euler_number),
-          fact("boundary_loops", t.boundary_loops), fact("boundary_edges", t.boundary_edges),
-          fact("non_manifold_edges", t.non_manifold_edges), fact("non_manifold_vertices", t.non_manifold_vertices),
-          fact("flipped_edges", t.flipped_edges), fact("degenerate_triangles", t.degenerate_triangles),
-          fact("duplicate_triangles", t.duplicate_triangles), fact("unused_vertices", t.unused_vertices)};
+  const auto fact = [](const char* key, auto value) {
+    return Fact{key, static_cast<double>(value), ""};
+  };
+  return {fact("vertices", mesh.positions.size()),
+          fact("triangles", mesh.triangles.size()),
+          fact("edges", t.edges),
+          fact("components", t.components),
+          fact("euler_number", t.euler_number),
+          fact("boundary_loops", t.boundary_loops),
+          fact("boundary_edges", t.boundary_edges),
+          fact("non_manifold_edges", t.non_manifold_edges),
+          fact("non_manifold_vertices", t.non_manifold_vertices),
+          fact("flipped_edges", t.flipped_edges),
+          fact("degenerate_triangles", t.degenerate_triangles),
+          fact("duplicate_triangles", t.duplicate_triangles),
+          fact("unused_vertices", t.unused_vertices)};
 }
 
 void print_ring(const OneRingTable& table) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   fmt::print("one-ring of vertex {} at {:.9g} {:.9g} {:.9g}\n", table.vertex, table.position.x,
              table.position.y, table.position.z);
-  fmt::print("{:>10} {:>14} {:>14} {:>14} {:>14} {:>14}\n", "vertex", "x", "y", "z", "distance", "|mean - d|");
+  fmt::print("{:>10} {:>14} {:>14} {:>14} {:>14} {:>14}\n", "vertex", "x", "y", "z", "distance",
+             "|mean - d|");
   for (const auto& n : table.neighbours) {
     fmt::print("{:>10} {:>14.9g} {:>14.9g} {:>14.9g} {:>14.9g} {:>14.9g}\n", n.vertex, n.position.x,
                n.position.y, n.position.z, n.distance, n.deviation);
   }
-  for (const auto& c : table.corners) fmt::print("angle {}-{}-{}: {:.4f} deg\n", c.from, table.vertex, c.to, c.angle * kDegrees);
+  for (const auto& c : table.corners)
+    fmt::print("angle {}-{}-{}: {:.4f} deg\n", c.from, table.vertex, c.to, c.angle * kDegrees);
 }
 
-Result<std::vector<Section>> measure_all(const Options& options, const TriangleMesh& mesh, const Context& context) {
+Result<std::vector<Section>> measure_all(const Options& options, const TriangleMesh& mesh,
+                                         const Context& context) {
   std::vector<Section> sections{{"topology", topology_facts(mesh)}};
   const Result<TriangleQuality> quality = triangle_quality(mesh, context.part(0, 0.3));
   if (!quality) return quality.error();
@@ -114,12 +126,14 @@ Result<void> measure(const Options& options, const Context& context) {
 }  // namespace
 
 Action add_measure(CLI::App& app) {
-  auto* verb = app.add_subcommand("measure", "Measure a mesh: topology, triangle quality, size, noise, truth.");
+  auto* verb = app.add_subcommand(
+      "measure", "Measure a mesh: topology, triangle quality, size, noise, truth.");
   auto options = std::make_shared<Options>();
   verb->add_option("IN", options->input, "the mesh: PLY, OBJ, STL, OFF")->required();
   verb->add_option("--truth", options->truth, "a mesh of the true surface to compare with");
   verb->add_option("--vertex", options->vertex,
-                   "print the one-ring of this vertex instead: distances, deviations, angles")->type_name("N");
+                   "print the one-ring of this vertex instead: distances, deviations, angles")
+      ->type_name("N");
   verb->add_flag("--json", options->json, "print JSON, in m and rad");
   verb->footer("Example:\n  burnish measure model.ply --truth true.ply --json");
   return [options](const Session&, const Context& c) { return measure(*options, c); };

@@ -1,19 +1,20 @@
 #include <fmt/format.h>
 
 #include "../frame_options.h"
+#include "../report_output.h"
 #include "../summary.h"
 #include "../verb.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/pipeline/phases.h"
 #include "burnish/pipeline/reconstruct.h"
-#include "burnish/report/report.h"
 
 namespace burnish::app {
 namespace {
 
 struct Options {
   std::vector<std::string> inputs;
-  std::string output, report, truth, crop;
+  std::string output, truth, crop;
+  ReportOutput report;
   FrameTexts frames;
   std::vector<std::string> clean, merge, clean_merged, triangulate, repair, smooth;
 };
@@ -36,9 +37,12 @@ Result<Recipe> recipe_of(const Options& options) {
   }
   std::vector<Method> merge{recipe.merge}, triangulate;
   const std::pair<std::vector<Method>*, const std::vector<std::string>*> steps[] = {
-      {&recipe.clean_scan, &options.clean}, {&merge, &options.merge},
-      {&recipe.clean_merged, &options.clean_merged}, {&triangulate, &options.triangulate},
-      {&recipe.repair, &options.repair}, {&recipe.smooth, &options.smooth}};
+      {&recipe.clean_scan, &options.clean},
+      {&merge, &options.merge},
+      {&recipe.clean_merged, &options.clean_merged},
+      {&triangulate, &options.triangulate},
+      {&recipe.repair, &options.repair},
+      {&recipe.smooth, &options.smooth}};
   for (const auto& [step, texts] : steps) {
     if (auto laid = lay_over(*step, *texts); !laid) return laid.error();
   }
@@ -49,7 +53,7 @@ Result<Recipe> recipe_of(const Options& options) {
 
 Result<void> run(const Options& options, const Session& session, const Context& context) {
   if (auto possible = check_output(options.output); !possible) return possible;
-  if (auto possible = check_folder_of(options.report); !possible) return possible;
+  if (auto possible = check_report_output(options.report); !possible) return possible;
   const Result<Recipe> recipe = recipe_of(options);
   if (!recipe) return recipe.error();
   Result<FrameOptions> frames = read_frame_texts(options.frames);
@@ -57,24 +61,19 @@ Result<void> run(const Options& options, const Session& session, const Context& 
   ScanInputs inputs{{options.inputs.begin(), options.inputs.end()}, *std::move(frames)};
   ReconstructOptions how;
   if (!options.truth.empty()) how.truth = options.truth;
-  how.keep_phases = !options.report.empty();
+  how.keep_phases = options.report.wanted();
 
-  Record record = new_record("Reconstruction of " + options.inputs.front(), session.command, options.inputs);
-  Result<Reconstruction> made = reconstruct(inputs, *recipe, how, std::move(record), context.part(0, 0.85));
+  Record record =
+      new_record("Reconstruction of " + options.inputs.front(), session.command, options.inputs);
+  Result<Reconstruction> made =
+      reconstruct(inputs, *recipe, how, std::move(record), context.part(0, 0.85));
   if (!made) return std::move(made).error();
-  if (auto written = save(options.output, made->mesh, session, context.part(0.85, 0.88)); !written) return written;
-  if (!options.report.empty()) {
-    context.stage("writing " + options.report);
-    if (auto written = write_report(options.report, made->record, ReportOptions{}, context.part(0.88, 1)); !written) {
-      return written;
-    }
-  }
-  context.progress(1);
+  if (auto written = save(options.output, made->mesh, session, context.part(0.85, 0.88)); !written)
+    return written;
   say_steps(session, made->record);
   say_comparisons(session, made->record);
   say_mesh(session, options.output, made->mesh);
-  if (!options.report.empty()) say(session, "report: " + options.report);
-  return {};
+  return write_report_output(options.report, made->record, session, context.part(0.88, 1));
 }
 
 }  // namespace
@@ -83,18 +82,23 @@ Action add_reconstruct(CLI::App& app) {
   auto* verb = app.add_subcommand("reconstruct", "Make a clean mesh from depth frames or clouds.");
   auto options = std::make_shared<Options>();
   verb->add_option("INPUT", options->inputs,
-                   "a folder of depth frames, single depth images (PNG, PGM, TIFF), or clouds (PLY, PCD, XYZ)")
+                   "a folder of depth frames or PCD, single depth images (PNG, PGM, TIFF), or "
+                   "clouds (PLY, PCD, XYZ)")
       ->required();
-  verb->add_option("-o,--output", options->output, "the mesh to write; its ending names the format")->required();
-  verb->add_option("--report", options->report, "write an HTML page with pictures and figures of every phase");
-  verb->add_option("--truth", options->truth, "a mesh of the true surface, to compare points and phases with");
+  verb->add_option("-o,--output", options->output, "the mesh to write; its ending names the format")
+      ->required();
+  add_report_options(verb, options->report);
+  verb->add_option("--truth", options->truth,
+                   "a mesh of the true surface, to compare points and phases with");
   add_frame_options(verb, options->frames);
-  verb->add_option("--crop", options->crop,
-                   "keep only what lies in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");
+  verb->add_option(
+      "--crop", options->crop,
+      "keep only what lies in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");
   add_method(verb, "--clean", options->clean, "clean", "clean each organized scan; none: do not");
   add_method(verb, "--merge", options->merge, "merge", "merge several scans")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  add_method(verb, "--clean_merged", options->clean_merged, "clean", "clean the merged cloud; none: do not");
+  add_method(verb, "--clean_merged", options->clean_merged, "clean",
+             "clean the merged cloud; none: do not");
   add_method(verb, "--triangulate", options->triangulate, "triangulate",
              "make the surface; default: organized for one frame, global otherwise")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
@@ -102,12 +106,15 @@ Action add_reconstruct(CLI::App& app) {
   add_method(verb, "--smooth", options->smooth, "smooth",
              "smooth the mesh; repeat it for one phase after another; none: do not");
   verb->footer(
-      "Known layouts: 7-Scenes (frame-NNN.depth.png, frame-NNN.pose.txt, camera-intrinsics.txt); numbered\n"
-      "images with a list of poses (x y z qx qy qz qw; TUM: timestamp first; Redwood trajectory.log);\n"
+      "Known layouts: 7-Scenes (frame-NNN.depth.png, frame-NNN.pose.txt, camera-intrinsics.txt); "
+      "numbered\n"
+      "images with a list of poses (x y z qx qy qz qw; TUM: timestamp first; Redwood "
+      "trajectory.log);\n"
       "organized PCD. One scan needs no pose.\n"
       "Examples:\n"
       "  burnish reconstruct scan/ -o model.ply --report report.html\n"
-      "  burnish reconstruct depth.png --sensor kinect_v1 -o person.ply --smooth nearest_farthest:iterations=3");
+      "  burnish reconstruct depth.png --sensor kinect_v1 -o person.ply --smooth "
+      "nearest_farthest:iterations=3");
   return [options](const Session& s, const Context& c) { return run(*options, s, c); };
 }
 

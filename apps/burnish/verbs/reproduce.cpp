@@ -15,8 +15,9 @@ void print(const Figure6& figure) {
   for (const Figure6Row& row : figure.rows) {
     if (row.phase != phase) {
       phase = row.phase;
-      fmt::print("\n{}\n{:<12} {:<42} {:<42} {:>10}\n", phase == 0 ? "Original" : fmt::format("Phase {}", phase),
-                 "", "printed", "computed", "difference");
+      fmt::print("\n{}\n{:<12} {:<42} {:<42} {:>10}\n",
+                 phase == 0 ? "Original" : fmt::format("Phase {}", phase), "", "printed",
+                 "computed", "difference");
     }
     fmt::print("{:<12} {:<42} {:<42} {:>10.2g}{}{}\n", row.quantity, numbers_text(row.printed),
                numbers_text(row.computed), row.difference(), row.agrees() ? "" : "  DIFFERS",
@@ -28,7 +29,9 @@ void print(const Figure6& figure) {
 
 Result<void> reproduce(const std::string& what) {
   if (what != "figure6") {
-    return Error{ErrorCode::invalid_argument, fmt::format("'{}' cannot be reproduced, known: figure6", what), {}};
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("'{}' cannot be reproduced, known: figure6", what),
+                 {}};
   }
   const Figure6 figure = reproduce_figure6();
   print(figure);
@@ -39,9 +42,12 @@ Result<void> reproduce(const std::string& what) {
 }  // namespace
 
 Action add_reproduce(CLI::App& app) {
-  auto* verb = app.add_subcommand("reproduce", "Compute a table of Ozbay and Cinar's paper anew, beside the printed one.");
+  auto* verb = app.add_subcommand(
+      "reproduce", "Compute a table of Ozbay and Cinar's paper anew, beside the printed one.");
   auto what = std::make_shared<std::string>();
-  verb->add_option("WHAT", *what, "figure6: the teapot's coordinates and distances, original and two phases")->required();
+  verb->add_option("WHAT", *what,
+                   "figure6: the teapot's coordinates and distances, original and two phases")
+      ->required();
   verb->footer("Example:\n  burnish reproduce figure6");
   return [what](const Session&, const Context&) { return reproduce(*what); };
 }

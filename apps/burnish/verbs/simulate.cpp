@@ -20,7 +20,9 @@ Result<TriangleMesh> model_of(const std::string& name, const Context& context) {
   if (std::filesystem::exists(name)) return read_mesh(name, context);
   Result<TriangleMesh> shape = make_shape(name);
   if (shape) return shape;
-  return Error{ErrorCode::not_found, fmt::format("neither a file nor a shape ({})", fmt::join(shape_names(), ", ")), name};
+  return Error{ErrorCode::not_found,
+               fmt::format("neither a file nor a shape ({})", fmt::join(shape_names(), ", ")),
+               name};
 }
 
 Result<void> simulate(const Options& options, const Session& session, const Context& context) {
@@ -34,29 +36,40 @@ Result<void> simulate(const Options& options, const Session& session, const Cont
   const Result<Simulation> simulation =
       simulate_turntable(*model, *sensor, *params, options.folder, context.part(0.1, 1));
   if (!simulation) return simulation.error();
-  for (const Fact& fact : simulation->facts()) say(session, fmt::format("{}: {}", fact.key, readable(fact)));
-  say(session, fmt::format("{}: frames with poses; truth/model.ply is the true surface", options.folder));
+  for (const Fact& fact : simulation->facts())
+    say(session, fmt::format("{}: {}", fact.key, readable(fact)));
+  say(session,
+      fmt::format("{}: frames with poses; truth/model.ply is the true surface", options.folder));
   return {};
 }
 
 }  // namespace
 
 Action add_simulate(CLI::App& app) {
-  auto* verb = app.add_subcommand("simulate", "Scan a model on a turntable with a virtual depth camera.");
+  auto* verb =
+      app.add_subcommand("simulate", "Scan a model on a turntable with a virtual depth camera.");
   auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, fmt::format("a mesh file, or a shape: {}", fmt::join(shape_names(), ", ")))
+  verb->add_option("MODEL", options->model,
+                   fmt::format("a mesh file, or a shape: {}", fmt::join(shape_names(), ", ")))
       ->required();
-  verb->add_option("-o,--output", options->folder, "the folder to write; new, empty, or an earlier simulation")->required();
-  verb->add_option("--sensor", options->sensor, "which camera: " + sensor_names())->capture_default_str();
+  verb->add_option("-o,--output", options->folder,
+                   "the folder to write; new, empty, or an earlier simulation")
+      ->required();
+  verb->add_option("--sensor", options->sensor, "which camera: " + sensor_names())
+      ->capture_default_str();
   for (const FieldInfo& field : TurntableParams::schema().fields()) {
     verb->add_option_function<std::string>(
             "--" + field.key,
-            [options, key = field.key](const std::string& text) { options->settings.emplace_back(key, text); },
-            fmt::format("{}; {}{}{}, default {}", field.help, field.range, field.unit.empty() ? "" : " ",
-                        field.unit, field.default_value))
+            [options, key = field.key](const std::string& text) {
+              options->settings.emplace_back(key, text);
+            },
+            fmt::format("{}; {}{}{}, default {}", field.help, field.range,
+                        field.unit.empty() ? "" : " ", field.unit, field.default_value))
         ->type_name(field.type);
   }
-  verb->footer("Example:\n  burnish simulate teapot -o scan --views 24 --sensor kinect_v1 --seed 1 --distance 0.8m");
+  verb->footer(
+      "Example:\n  burnish simulate teapot -o scan --views 24 --sensor kinect_v1 --seed 1 "
+      "--distance 0.8m");
   return [options](const Session& s, const Context& c) { return simulate(*options, s, c); };
 }
 

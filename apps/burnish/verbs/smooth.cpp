@@ -1,17 +1,18 @@
 #include <fmt/format.h>
 
+#include "../report_output.h"
 #include "../summary.h"
 #include "../verb.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/pipeline/phases.h"
 #include "burnish/pipeline/recipe.h"
-#include "burnish/report/report.h"
 
 namespace burnish::app {
 namespace {
 
 struct Options {
-  std::string input, output, report;
+  std::string input, output;
+  ReportOutput report;
   std::vector<std::string> methods;
 };
 
@@ -21,23 +22,21 @@ Result<void> smooth(const Options& options, const Session& session, const Contex
   if (auto known = check_smoothing(*methods); !known) return known;
 
   if (auto possible = check_output(options.output); !possible) return possible;
-  if (auto possible = check_folder_of(options.report); !possible) return possible;
+  if (auto possible = check_report_output(options.report); !possible) return possible;
   context.stage("reading " + options.input);
   Result<TriangleMesh> mesh = read_mesh(options.input, context.part(0, 0.2));
   if (!mesh) return std::move(mesh).error();
 
   Record record = new_record("Smoothing of " + options.input, session.command, {options.input});
-  const bool keep_phases = !options.report.empty();
-  if (auto done = smooth_in_phases(*mesh, *methods, keep_phases, record, context.part(0.2, 0.7)); !done) {
+  const bool keep_phases = options.report.wanted();
+  if (auto done = smooth_in_phases(*mesh, *methods, keep_phases, record, context.part(0.2, 0.7));
+      !done) {
     return done;
   }
-  if (auto written = save(options.output, *mesh, session, context.part(0.7, 0.8)); !written) return written;
-  if (keep_phases) {
-    context.stage("writing " + options.report);
-    if (auto written = write_report(options.report, record, ReportOptions{}, context.part(0.8, 1)); !written) return written;
-  }
+  if (auto written = save(options.output, *mesh, session, context.part(0.7, 0.8)); !written)
+    return written;
   say_steps(session, record);
-  return {};
+  return write_report_output(options.report, record, session, context.part(0.8, 1));
 }
 
 }  // namespace
@@ -46,11 +45,15 @@ Action add_smooth(CLI::App& app) {
   auto* verb = app.add_subcommand("smooth", "Smooth a mesh.");
   auto options = std::make_shared<Options>();
   verb->add_option("IN", options->input, "the mesh: PLY, OBJ, STL, OFF")->required();
-  verb->add_option("-o,--output", options->output, "the file to write; its ending names the format")->required();
-  add_method(verb, "-m,--method", options->methods, "smooth", "how; repeat it for one phase after another")->required();
-  verb->add_option("--report", options->report, "write an HTML page with pictures and figures of every phase");
-  verb->footer("Methods:\n" + methods_help("smooth") +
-               "Example:\n  burnish smooth scan.ply -o smooth.ply --method nearest_farthest:iterations=2");
+  verb->add_option("-o,--output", options->output, "the file to write; its ending names the format")
+      ->required();
+  add_method(verb, "-m,--method", options->methods, "smooth",
+             "how; repeat it for one phase after another")
+      ->required();
+  add_report_options(verb, options->report);
+  verb->footer(
+      "Methods:\n" + methods_help("smooth") +
+      "Example:\n  burnish smooth scan.ply -o smooth.ply --method nearest_farthest:iterations=2");
   return [options](const Session& s, const Context& c) { return smooth(*options, s, c); };
 }
 

@@ -25,7 +25,8 @@ Result<void> triangulate(const Options& options, const Session& session, const C
   const Result<TriangleMesh> mesh =
       triangulate_cloud(*cloud, methods->back(), record, context.part(0.2, 0.9));
   if (!mesh) return mesh.error();
-  if (auto written = save(options.output, *mesh, session, context.part(0.9, 1)); !written) return written;
+  if (auto written = save(options.output, *mesh, session, context.part(0.9, 1)); !written)
+    return written;
   say_steps(session, record);
   return {};
 }
@@ -35,8 +36,10 @@ Result<void> triangulate(const Options& options, const Session& session, const C
 Action add_triangulate(CLI::App& app) {
   auto* verb = app.add_subcommand("triangulate", "Make a mesh through the points of a cloud.");
   auto options = std::make_shared<Options>();
-  verb->add_option("IN", options->input, "the cloud: PLY, PCD, XYZ, or the vertices of a mesh")->required();
-  verb->add_option("-o,--output", options->output, "the file to write; its ending names the format")->required();
+  verb->add_option("IN", options->input, "the cloud: PLY, PCD, XYZ, or the vertices of a mesh")
+      ->required();
+  verb->add_option("-o,--output", options->output, "the file to write; its ending names the format")
+      ->required();
   add_method(verb, "-m,--method", options->methods, "triangulate", "how; default: global")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   verb->footer("Methods:\n" + methods_help("triangulate") +

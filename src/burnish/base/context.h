@@ -6,12 +6,13 @@
 
 namespace burnish {
 
-/// Who wants to know how far an operation is. Called only from the thread that called the operation.
+/// Who wants to know how far an operation is. Called only from the thread that called the
+/// operation.
 class ProgressSink {
  public:
   virtual ~ProgressSink() = default;
-  virtual void on_progress(double fraction) = 0;          ///< 0 to 1, never falling
-  virtual void on_stage(std::string_view /*name*/) {}     ///< a new stage begins
+  virtual void on_progress(double fraction) = 0;       ///< 0 to 1, never falling
+  virtual void on_stage(std::string_view /*name*/) {}  ///< a new stage begins
 };
 
 /// What an operation is run with: how to stop it, whom to tell, how many threads, which seed.
@@ -20,8 +21,8 @@ class Context {
  public:
   std::stop_token stop;
   ProgressSink* sink = nullptr;
-  int threads = 0;          ///< at most so many; 0: as many as the machine has
-  std::uint64_t seed = 1;   ///< for whatever draws random numbers
+  int threads = 0;         ///< at most so many; 0: as many as the machine has
+  std::uint64_t seed = 1;  ///< for whatever draws random numbers
 
   bool cancelled() const { return stop.stop_requested(); }
 

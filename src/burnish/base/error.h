@@ -5,7 +5,8 @@
 
 namespace burnish {
 
-/// Why something could not be done. The program's exit statuses follow from it (docs/exit-status.md).
+/// Why something could not be done. The program's exit statuses follow from it
+/// (docs/exit-status.md).
 enum class ErrorCode {
   invalid_argument,  ///< a parameter, option or combination of inputs that cannot be
   not_found,         ///< a file or folder that does not exist
@@ -30,6 +31,8 @@ struct Error {
   std::string text() const { return where.empty() ? message : where + ": " + message; }
 };
 
-inline Error cancelled() { return {ErrorCode::cancelled, "cancelled", {}}; }
+inline Error cancelled() {
+  return {ErrorCode::cancelled, "cancelled", {}};
+}
 
 }  // namespace burnish

@@ -28,7 +28,9 @@ class Chunks {
     std::shuffle(order_.begin(), order_.end(), random);
 #endif
   }
-  std::size_t size() const { return (count_ + grain_ - 1) / grain_; }
+  std::size_t size() const {
+    return (count_ + grain_ - 1) / grain_;
+  }
   IndexRange operator[](std::size_t i) const {
     const std::size_t chunk = order_.empty() ? i : order_[i];
     return {chunk * grain_, std::min(count_, (chunk + 1) * grain_)};
@@ -73,7 +75,8 @@ bool parallel_for(const Context& context, std::size_t count,
     // Asked for more threads than the machine has, oneTBB would print a warning.
     std::optional<tbb::global_control> allow;
     if (threads > tbb::this_task_arena::max_concurrency()) {
-      allow.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+      allow.emplace(tbb::global_control::max_allowed_parallelism,
+                    static_cast<std::size_t>(threads));
     }
     tbb::task_arena arena(threads);
     arena.execute([&] { tbb::parallel_for(std::size_t{0}, total, run_chunk); });

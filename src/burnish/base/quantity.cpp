@@ -20,10 +20,14 @@ std::span<const Unit> units_of(Quantity quantity) {
   static constexpr Unit kAngles[] = {{"rad", 1}, {"deg", std::numbers::pi / 180}};
   static constexpr Unit kTimes[] = {{"s", 1}, {"ms", 0.001}};
   switch (quantity) {
-    case Quantity::length: return kLengths;
-    case Quantity::angle: return kAngles;
-    case Quantity::time: return kTimes;
-    case Quantity::number: break;
+    case Quantity::length:
+      return kLengths;
+    case Quantity::angle:
+      return kAngles;
+    case Quantity::time:
+      return kTimes;
+    case Quantity::number:
+      break;
   }
   return {};
 }
@@ -48,12 +52,14 @@ Result<double> parse_quantity(std::string_view text, Quantity quantity) {
     if (unit.empty()) return value;
     for (const Unit& known : units_of(quantity)) {
       // Division by a power of ten rounds once; multiplication by 0.001 would round twice.
-      if (unit == known.name) return known.factor < 1 && quantity != Quantity::angle
-                                         ? value / std::round(1 / known.factor)
-                                         : value * known.factor;
+      if (unit == known.name)
+        return known.factor < 1 && quantity != Quantity::angle
+                   ? value / std::round(1 / known.factor)
+                   : value * known.factor;
     }
   }
-  return Error{ErrorCode::invalid_argument, fmt::format("'{}' is not {}", text, expected(quantity)), {}};
+  return Error{
+      ErrorCode::invalid_argument, fmt::format("'{}' is not {}", text, expected(quantity)), {}};
 }
 
 std::string_view unit_of(Quantity quantity) {
@@ -61,6 +67,13 @@ std::string_view unit_of(Quantity quantity) {
   return units.empty() ? std::string_view{} : units.front().name;
 }
 
-std::string shortest(double value) { return fmt::format("{}", value); }
+std::string quantity_text(double value, Quantity quantity) {
+  if (quantity == Quantity::angle && value != 0) {
+    const std::string degrees = fmt::format("{:.0f}deg", value * 180 / std::numbers::pi);
+    const Result<double> read = parse_quantity(degrees, quantity);
+    if (read && *read == value) return degrees;
+  }
+  return fmt::format("{}", value);
+}
 
 }  // namespace burnish

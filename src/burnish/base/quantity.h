@@ -17,7 +17,8 @@ Result<double> parse_quantity(std::string_view text, Quantity quantity);
 /// "m", "rad", "s"; empty for plain numbers.
 std::string_view unit_of(Quantity quantity);
 
-/// The shortest decimal that reads back as `value`.
-std::string shortest(double value);
+/// The shortest text that parse_quantity reads back as `value`: whole degrees as "25deg", all else
+/// as a number in the SI unit.
+std::string quantity_text(double value, Quantity quantity);
 
 }  // namespace burnish

@@ -23,7 +23,8 @@ RigidTransform operator*(const RigidTransform& a, const RigidTransform& b) {
   const auto columns = transposed(b.rows);
   RigidTransform result;
   for (std::size_t i = 0; i < 3; ++i) {
-    result.rows[i] = {dot(a.rows[i], columns[0]), dot(a.rows[i], columns[1]), dot(a.rows[i], columns[2])};
+    result.rows[i] = {dot(a.rows[i], columns[0]), dot(a.rows[i], columns[1]),
+                      dot(a.rows[i], columns[2])};
   }
   result.translation = a(b.translation);
   return result;

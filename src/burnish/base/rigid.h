@@ -20,7 +20,8 @@ struct RigidTransform {
 };
 
 /// From a quaternion of any length but zero.
-RigidTransform rigid_from_quaternion(double qx, double qy, double qz, double qw, const Vec3d& translation);
+RigidTransform rigid_from_quaternion(double qx, double qy, double qz, double qw,
+                                     const Vec3d& translation);
 
 /// {qx, qy, qz, qw} of length 1 with qw >= 0.
 std::array<double, 4> quaternion(const RigidTransform& transform);

@@ -24,7 +24,8 @@ Result<int> parse_integer(std::string_view text) {
 Result<bool> parse_flag(std::string_view text) {
   if (text == "true") return true;
   if (text == "false") return false;
-  return Error{ErrorCode::invalid_argument, fmt::format("'{}' is neither true nor false", text), {}};
+  return Error{
+      ErrorCode::invalid_argument, fmt::format("'{}' is neither true nor false", text), {}};
 }
 
 Error unknown_choice(std::string_view text, std::string_view all) {

@@ -19,11 +19,11 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 /// A parameter as help texts, documentation and Python show it.
 struct FieldInfo {
   std::string key;
-  std::string type;           ///< "integer", "number", "length", "angle", "time", "flag" or "choice"
+  std::string type;  ///< "integer", "number", "length", "angle", "time", "flag" or "choice"
   std::string default_value;  ///< as the user would type it
   std::string range;          ///< "[0, 1]", "(0, inf)", "fixed | free"
   std::string unit;
-  std::string help;           ///< half a sentence, lower case, no full stop
+  std::string help;  ///< half a sentence, lower case, no full stop
 };
 
 /// Lower and upper limit of a number; open: the limit itself is not allowed.
@@ -38,9 +38,15 @@ struct Range {
   std::string text() const;
 };
 
-inline Range at_least(double low) { return {low}; }
-inline Range more_than(double low) { return {.low = low, .open_low = true}; }
-inline Range between(double low, double high) { return {low, high}; }
+inline Range at_least(double low) {
+  return {low};
+}
+inline Range more_than(double low) {
+  return {.low = low, .open_low = true};
+}
+inline Range between(double low, double high) {
+  return {low, high};
+}
 
 namespace schema_detail {
 Result<int> parse_integer(std::string_view text);
@@ -79,7 +85,7 @@ class Schema {
                   p.*member = *value;
                   return {};
                 },
-                [member](const Params& p) { return shortest(p.*member); },
+                [member, quantity](const Params& p) { return quantity_text(p.*member, quantity); },
                 [member, range](const Params& p) {
                   return std::isfinite(p.*member) && range.contains(p.*member);
                 }});
@@ -97,7 +103,8 @@ class Schema {
                 [](const Params&) { return true; }});
   }
 
-  /// One of several names: .choice("boundary", &P::boundary, {{"fixed", Boundary::fixed}, ...}, "...").
+  /// One of several names: .choice("boundary", &P::boundary, {{"fixed", Boundary::fixed}, ...},
+  /// "...").
   template <class Enum>
   Schema& choice(std::string key, Enum Params::*member,
                  std::vector<std::pair<std::string, Enum>> names, std::string help) {
@@ -128,7 +135,8 @@ class Schema {
   Result<void> check(const Params& params) const {
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       if (!access_[i].valid(params)) {
-        return schema_detail::out_of_range(fields_[i].key, access_[i].text(params), fields_[i].range);
+        return schema_detail::out_of_range(fields_[i].key, access_[i].text(params),
+                                           fields_[i].range);
       }
     }
     return {};

@@ -16,7 +16,9 @@ struct Vec3 {
     return {static_cast<U>(x), static_cast<U>(y), static_cast<U>(z)};
   }
   constexpr T& operator[](std::size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
-  constexpr const T& operator[](std::size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr const T& operator[](std::size_t axis) const {
+    return axis == 0 ? x : axis == 1 ? y : z;
+  }
 
   constexpr Vec3& operator+=(const Vec3& b) { return x += b.x, y += b.y, z += b.z, *this; }
   constexpr Vec3& operator-=(const Vec3& b) { return x -= b.x, y -= b.y, z -= b.z, *this; }

@@ -6,14 +6,16 @@ namespace burnish {
 namespace {
 
 template <class Op>
-Result<const Op*> find_in(std::span<const Op> list, std::string_view family, std::string_view name) {
+Result<const Op*> find_in(std::span<const Op> list, std::string_view family,
+                          std::string_view name) {
   std::string known;
   for (const Op& operation : list) {
     if (operation.info.name == name) return &operation;
     known += (known.empty() ? "" : ", ") + operation.info.name;
   }
   return Error{ErrorCode::invalid_argument,
-               fmt::format("'{}' is no method to {}, known: {}", name, family, known), {}};
+               fmt::format("'{}' is no method to {}, known: {}", name, family, known),
+               {}};
 }
 
 template <class Op>
@@ -26,7 +28,8 @@ std::vector<OperationInfo> infos(std::span<const Op> list) {
 }  // namespace
 
 std::span<const std::string_view> families() {
-  static constexpr std::string_view kFamilies[] = {"clean", "merge", "triangulate", "repair", "smooth"};
+  static constexpr std::string_view kFamilies[] = {"clean", "merge", "triangulate", "repair",
+                                                   "smooth"};
   return kFamilies;
 }
 
@@ -58,18 +61,21 @@ Result<const SmoothOperation*> find_smooth(std::string_view name) {
 Result<Method> parse_method(std::string_view text) {
   const auto malformed = [&] {
     return Error{ErrorCode::invalid_argument,
-                 fmt::format("'{}' is not of the form NAME[:key=value,...]", text), {}};
+                 fmt::format("'{}' is not of the form NAME[:key=value,...]", text),
+                 {}};
   };
   const std::size_t colon = text.find(':');
   Method method{std::string(text.substr(0, colon)), {}};
   if (method.name.empty()) return malformed();
-  std::string_view rest = colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
+  std::string_view rest =
+      colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
   if (colon != std::string_view::npos && rest.empty()) return malformed();
   while (!rest.empty()) {
     const std::size_t comma = rest.find(',');
     const std::string_view pair = rest.substr(0, comma);
     const std::size_t equals = pair.find('=');
-    if (equals == 0 || equals == std::string_view::npos || equals + 1 == pair.size()) return malformed();
+    if (equals == 0 || equals == std::string_view::npos || equals + 1 == pair.size())
+      return malformed();
     method.settings.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
     if (comma == std::string_view::npos) break;
     rest = rest.substr(comma + 1);

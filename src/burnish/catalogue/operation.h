@@ -16,9 +16,9 @@ namespace burnish {
 
 /// An operation as texts see it.
 struct OperationInfo {
-  std::string name;                ///< snake_case, unique in its family
-  std::string summary;             ///< one sentence
-  std::string paper;               ///< key into docs/bibliography.md, or empty where it is our own
+  std::string name;     ///< snake_case, unique in its family
+  std::string summary;  ///< one sentence
+  std::string paper;    ///< key into docs/bibliography.md, or empty where it is our own
   std::vector<FieldInfo> fields;
 };
 
@@ -39,8 +39,8 @@ struct Operation {
 };
 
 using CleanOperation = Operation<Result<Facts>(PointCloud&, const Settings&, const Context&)>;
-using MergeOperation =
-    Operation<Result<Created<PointCloud>>(std::span<const PointCloud>, const Settings&, const Context&)>;
+using MergeOperation = Operation<Result<Created<PointCloud>>(std::span<const PointCloud>,
+                                                             const Settings&, const Context&)>;
 using TriangulateOperation =
     Operation<Result<Created<TriangleMesh>>(const PointCloud&, const Settings&, const Context&)>;
 using RepairOperation = Operation<Result<Facts>(TriangleMesh&, const Settings&, const Context&)>;
@@ -90,8 +90,8 @@ Operation<Result<Facts>(T&, const Settings&, const Context&)> edit_operation(
           resolve<Params>};
 }
 
-/// A creation of a T from an Input: `Result<Output> function(Input, const Params&, const Context&)`,
-/// where Output holds the T as its member `value` and a report.
+/// A creation of a T from an Input: `Result<Output> function(Input, const Params&, const
+/// Context&)`, where Output holds the T as its member `value` and a report.
 template <class Input, class Params, class Output, class T>
 Operation<Result<Created<T>>(Input, const Settings&, const Context&)> creation_operation(
     std::string name, Result<Output> (*function)(Input, const Params&, const Context&),

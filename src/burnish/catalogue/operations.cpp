@@ -26,7 +26,8 @@ std::span<const CleanOperation> clean_operations() {
 std::span<const MergeOperation> merge_operations() {
   static const std::vector<MergeOperation> list{
       creation_operation("cells", merge_cells, &Merging::cloud,
-                         "Points of one surface patch are averaged, weighted by their precision.", ""),
+                         "Points of one surface patch are averaged, weighted by their precision.",
+                         ""),
   };
   return list;
 }
@@ -52,14 +53,16 @@ std::span<const RepairOperation> repair_operations() {
 
 std::span<const SmoothOperation> smooth_operations() {
   static const std::vector<SmoothOperation> list{
-      edit_operation("nearest_farthest", smooth_nearest_farthest,
-                     "Mean of the one-ring in which the nearest and the farthest neighbour count twice.",
-                     "ozbay_cinar"),
+      edit_operation(
+          "nearest_farthest", smooth_nearest_farthest,
+          "Mean of the one-ring in which the nearest and the farthest neighbour count twice.",
+          "ozbay_cinar"),
       edit_operation("one_ring_mean", smooth_one_ring_mean,
                      "Each vertex moves to the mean of its one-ring and itself.", "ozbay_cinar"),
-      edit_operation("gaussian", smooth_gaussian,
-                     "Mean of the one-ring and the vertex itself, weighted by a Gaussian of the distance.",
-                     "ozbay_cinar"),
+      edit_operation(
+          "gaussian", smooth_gaussian,
+          "Mean of the one-ring and the vertex itself, weighted by a Gaussian of the distance.",
+          "ozbay_cinar"),
   };
   return list;
 }

@@ -130,6 +130,7 @@ Result<TruthComparison> compare_to_truth(const TriangleMesh& mesh, const Triangl
       [&](std::size_t v) { return Vec3d(mesh.positions[v]) + shift; },
       [&](std::size_t v, const ClosestPoint::Found& found) { of_vertices[v] = found.distance; });
   if (!complete) return cancelled();
+  result.deviation.assign(of_vertices.begin(), of_vertices.end());
   result.vertices = summary(std::move(of_vertices));
 
   const std::vector<Sample> true_samples = samples_on(truth, count);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "burnish/base/context.h"
 #include "burnish/base/facts.h"
@@ -32,6 +33,8 @@ struct TruthComparison {
   double mean_normal_error =
       0;  ///< between the normals of the mesh and of the nearest true triangle,
           ///< over the mesh's samples, rad; above pi/2 where folded
+
+  std::vector<float> deviation;  ///< of each vertex of the mesh from the truth, unsigned, m
 
   /// The larger of both ways' maxima, vertices included, m.
   double hausdorff() const;

@@ -23,7 +23,8 @@ Error in_step(std::string_view verb, const Method& method, Error error) {
 /// Runs one method and records it. `run` calls the operation, `facts_of` reads its result.
 template <class Op, class Run, class FactsOf>
 auto recorded(std::string_view verb, const Result<const Op*>& operation, const Method& method,
-              Record& record, const Context& context, Run run, FactsOf facts_of) -> decltype(run(**operation)) {
+              Record& record, const Context& context, Run run, FactsOf facts_of)
+    -> decltype(run(**operation)) {
   if (!operation) return operation.error();
   const Result<Settings> settings = (*operation)->resolve(method.settings);
   if (!settings) return in_step(verb, method, settings.error());
@@ -31,8 +32,8 @@ auto recorded(std::string_view verb, const Result<const Op*>& operation, const M
   const auto start = std::chrono::steady_clock::now();
   auto result = run(**operation);
   if (!result) return in_step(verb, method, std::move(result).error());
-  record.steps.push_back({std::string(verb), method.name, *settings, facts_of(*result), seconds_since(start),
-                          (*operation)->info.fields});
+  record.steps.push_back({std::string(verb), method.name, *settings, facts_of(*result),
+                          seconds_since(start), (*operation)->info.fields});
   return result;
 }
 
@@ -64,21 +65,25 @@ Result<void> clean_cloud(PointCloud& cloud, const std::vector<Method>& methods, 
   return edit("clean", cloud, methods, find_clean, record, context, kNothing);
 }
 
-Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method& method, Record& record,
-                                const Context& context) {
+Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method& method,
+                                Record& record, const Context& context) {
   auto merged = recorded(
       "merge", find_merge(method.name), method, record, context,
-      [&](const MergeOperation& operation) { return operation.run(clouds, method.settings, context); },
+      [&](const MergeOperation& operation) {
+        return operation.run(clouds, method.settings, context);
+      },
       kFactsOfCreated);
   if (!merged) return std::move(merged).error();
   return std::move(merged->value);
 }
 
-Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& method, Record& record,
-                                       const Context& context) {
+Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& method,
+                                       Record& record, const Context& context) {
   auto mesh = recorded(
       "triangulate", find_triangulate(method.name), method, record, context,
-      [&](const TriangulateOperation& operation) { return operation.run(cloud, method.settings, context); },
+      [&](const TriangulateOperation& operation) {
+        return operation.run(cloud, method.settings, context);
+      },
       kFactsOfCreated);
   if (!mesh) return std::move(mesh).error();
   return std::move(mesh->value);
@@ -89,8 +94,8 @@ Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods,
   return edit("repair", mesh, methods, find_repair, record, context, kNothing);
 }
 
-Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods, bool keep_phases,
-                              Record& record, const Context& context) {
+Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                              bool keep_phases, Record& record, const Context& context) {
   if (keep_phases) record.phases.push_back({"original", mesh, {}});
   return edit("smooth", mesh, methods, find_smooth, record, context, [&](std::size_t i) {
     if (keep_phases) record.phases.push_back({fmt::format("phase {}", i + 1), mesh, {}});

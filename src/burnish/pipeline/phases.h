@@ -11,19 +11,19 @@ namespace burnish {
 Result<void> clean_cloud(PointCloud& cloud, const std::vector<Method>& methods, Record& record,
                          const Context& context);
 
-Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method& method, Record& record,
-                                const Context& context);
+Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method& method,
+                                Record& record, const Context& context);
 
-Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& method, Record& record,
-                                       const Context& context);
+Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& method,
+                                       Record& record, const Context& context);
 
 Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods, Record& record,
                          const Context& context);
 
 /// With `keep_phases` the record gets the mesh as it is now ("original") and after each method
 /// ("phase 1", "phase 2", ...).
-Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods, bool keep_phases,
-                              Record& record, const Context& context);
+Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                              bool keep_phases, Record& record, const Context& context);
 
 /// A record with its title, the command line and the versions filled in.
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs);

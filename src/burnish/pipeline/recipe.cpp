@@ -19,7 +19,9 @@ Result<void> check_methods(const std::vector<Method>& methods, Find find) {
 
 }  // namespace
 
-Result<void> check_smoothing(const std::vector<Method>& methods) { return check_methods(methods, find_smooth); }
+Result<void> check_smoothing(const std::vector<Method>& methods) {
+  return check_methods(methods, find_smooth);
+}
 
 Result<void> check(const Recipe& recipe) {
   if (auto ok = check_methods(recipe.clean_scan, find_clean); !ok) return ok;

@@ -10,13 +10,14 @@ namespace burnish {
 
 /// Which method does each step of a reconstruction; an empty list leaves its step out.
 struct Recipe {
-  std::optional<Region> crop;                         ///< world coordinates; the rest is thrown away
+  std::optional<Region> crop;  ///< world coordinates; the rest is thrown away
   std::vector<Method> clean_scan{{"flying_pixels", {}}};  ///< each scan, where it is organized
-  Method merge{"cells", {}};                          ///< several scans
-  std::vector<Method> clean_merged{{"outliers", {}}}; ///< the merged cloud
-  std::optional<Method> triangulate;                  ///< none: organized for one organized scan, else global
+  Method merge{"cells", {}};                              ///< several scans
+  std::vector<Method> clean_merged{{"outliers", {}}};     ///< the merged cloud
+  std::optional<Method> triangulate;  ///< none: organized for one organized scan, else global
   std::vector<Method> repair{{"small_components", {}}};
-  std::vector<Method> smooth{{"nearest_farthest", {}}, {"nearest_farthest", {}}};  ///< phase by phase
+  std::vector<Method> smooth{{"nearest_farthest", {}},
+                             {"nearest_farthest", {}}};  ///< phase by phase
 };
 
 /// Whether every method is known and its parameters can be. Errors: invalid_argument.

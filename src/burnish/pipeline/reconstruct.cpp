@@ -20,7 +20,9 @@ std::size_t count_points(const PointCloud& cloud) {
 
 /// Takes what is outside of `region` out of a cloud: missing pixels where it is organized.
 void crop(PointCloud& cloud, const Region& region) {
-  const auto inside = [&](const Vec3f& p) { return contains(region, cloud.frame.origin + Vec3d(p)); };
+  const auto inside = [&](const Vec3f& p) {
+    return contains(region, cloud.frame.origin + Vec3d(p));
+  };
   if (cloud.grid) {
     constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
     for (Vec3f& p : cloud.positions) {
@@ -48,7 +50,8 @@ void add_up(Step& total, const Step& step) {
 /// Compares raw points and phases with the true surface, where there is one.
 class Judge {
  public:
-  static Result<Judge> of(const std::optional<std::filesystem::path>& file, const Context& context) {
+  static Result<Judge> of(const std::optional<std::filesystem::path>& file,
+                          const Context& context) {
     Judge judge;
     if (!file) return judge;
     Result<TriangleMesh> truth = read_mesh(*file, context);
@@ -74,10 +77,13 @@ class Judge {
     const double count = static_cast<double>(record.phases.size());
     for (std::size_t i = 0; i < record.phases.size(); ++i) {
       const double done = static_cast<double>(i);
-      const auto comparison = compare_to_truth(record.phases[i].mesh, *truth_, {},
-                                               context.part(0.2 + 0.8 * done / count, 0.2 + 0.8 * (done + 1) / count));
-      if (!comparison) return comparison.error();
-      record.comparisons.emplace_back(record.phases[i].name, comparison->facts());
+      Phase& phase = record.phases[i];
+      auto comparison =
+          compare_to_truth(phase.mesh, *truth_, {},
+                           context.part(0.2 + 0.8 * done / count, 0.2 + 0.8 * (done + 1) / count));
+      if (!comparison) return std::move(comparison).error();
+      phase.deviation = std::move(comparison->deviation);
+      record.comparisons.emplace_back(phase.name, comparison->facts());
     }
     return {};
   }
@@ -104,7 +110,8 @@ Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& rec
     if (!cloud) return std::move(cloud).error();
     if (recipe.crop) crop(*cloud, *recipe.crop);
     points += count_points(*cloud);
-    reading.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    reading.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     judge.see_raw_points(*cloud);
     if (cloud->grid) {
       Record single;
@@ -126,11 +133,14 @@ Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& rec
 /// One cloud from all: organized only where there is a single organized scan.
 Result<PointCloud> merge_scans(std::vector<PointCloud> clouds, const Recipe& recipe, Record& record,
                                const Context& context) {
-  if (clouds.size() == 1 && (clouds.front().grid || recipe.merge.name == "none")) return std::move(clouds.front());
-  Result<PointCloud> merged = clouds.size() == 1 ? Result<PointCloud>(std::move(clouds.front()))
-                                                 : merge_clouds(clouds, recipe.merge, record, context.part(0, 0.8));
+  if (clouds.size() == 1 && (clouds.front().grid || recipe.merge.name == "none"))
+    return std::move(clouds.front());
+  Result<PointCloud> merged =
+      clouds.size() == 1 ? Result<PointCloud>(std::move(clouds.front()))
+                         : merge_clouds(clouds, recipe.merge, record, context.part(0, 0.8));
   if (!merged) return merged;
-  if (auto clean = clean_cloud(*merged, recipe.clean_merged, record, context.part(0.8, 1)); !clean) {
+  if (auto clean = clean_cloud(*merged, recipe.clean_merged, record, context.part(0.8, 1));
+      !clean) {
     return clean.error();
   }
   return merged;
@@ -149,23 +159,29 @@ Result<Reconstruction> reconstruct(const ScanInputs& inputs, const Recipe& recip
   record.notes.insert(record.notes.end(), (*scans)->notes().begin(), (*scans)->notes().end());
   record.viewpoint = (*scans)->viewpoint();
 
-  Result<std::vector<PointCloud>> clouds = read_scans(**scans, recipe, *judge, record, context.part(0.02, 0.3));
+  Result<std::vector<PointCloud>> clouds =
+      read_scans(**scans, recipe, *judge, record, context.part(0.02, 0.3));
   if (!clouds) return std::move(clouds).error();
-  const Result<PointCloud> cloud = merge_scans(*std::move(clouds), recipe, record, context.part(0.3, 0.6));
+  const Result<PointCloud> cloud =
+      merge_scans(*std::move(clouds), recipe, record, context.part(0.3, 0.6));
   if (!cloud) return cloud.error();
 
   const Method by_default{cloud->grid ? "organized" : "global", {}};
-  Result<TriangleMesh> mesh =
-      triangulate_cloud(*cloud, recipe.triangulate.value_or(by_default), record, context.part(0.6, 0.8));
+  Result<TriangleMesh> mesh = triangulate_cloud(*cloud, recipe.triangulate.value_or(by_default),
+                                                record, context.part(0.6, 0.8));
   if (!mesh) return std::move(mesh).error();
-  if (auto repaired = repair_mesh(*mesh, recipe.repair, record, context.part(0.8, 0.82)); !repaired) {
+  if (auto repaired = repair_mesh(*mesh, recipe.repair, record, context.part(0.8, 0.82));
+      !repaired) {
     return repaired.error();
   }
   const bool keep_phases = options.keep_phases || options.truth;
-  if (auto done = smooth_in_phases(*mesh, recipe.smooth, keep_phases, record, context.part(0.82, 0.9)); !done) {
+  if (auto done =
+          smooth_in_phases(*mesh, recipe.smooth, keep_phases, record, context.part(0.82, 0.9));
+      !done) {
     return done.error();
   }
-  if (auto judged = judge->judge_phases(record, context.part(0.9, 1)); !judged) return judged.error();
+  if (auto judged = judge->judge_phases(record, context.part(0.9, 1)); !judged)
+    return judged.error();
   context.progress(1);
   return Reconstruction{*std::move(mesh), std::move(record)};
 }

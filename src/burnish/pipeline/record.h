@@ -37,14 +37,15 @@ struct Viewpoint {
 
 /// What was done, to what, with which result: what a report is made from.
 struct Record {
-  std::string title;                  ///< "Reconstruction of teapot-scan"
-  std::string command;                ///< as it was typed
+  std::string title;    ///< "Reconstruction of teapot-scan"
+  std::string command;  ///< as it was typed
   std::vector<std::string> inputs;
   std::vector<Step> steps;
   std::vector<Phase> phases;
-  std::vector<std::pair<std::string, Facts>> comparisons;  ///< against a true surface, by phase name
-  std::optional<Viewpoint> viewpoint; ///< of the first frame: pictures show the surface from there
-  std::vector<std::string> notes;     ///< what a reader of files or a step wants to be known
+  std::vector<std::pair<std::string, Facts>>
+      comparisons;                     ///< against a true surface, by phase name
+  std::optional<Viewpoint> viewpoint;  ///< of the first frame: pictures show the surface from there
+  std::vector<std::string> notes;      ///< what a reader of files or a step wants to be known
   std::vector<std::pair<std::string, std::string>> versions;  ///< burnish, compiler, libraries
 };
 

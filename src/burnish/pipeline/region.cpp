@@ -33,8 +33,10 @@ bool contains(const Region& region, const Vec3d& point) {
 }
 
 Result<Region> parse_region(std::string_view text) {
-  const Error malformed{ErrorCode::invalid_argument,
-                        fmt::format("'{}' is neither box:x0,y0,z0,x1,y1,z1 nor sphere:x,y,z,radius", text), {}};
+  const Error malformed{
+      ErrorCode::invalid_argument,
+      fmt::format("'{}' is neither box:x0,y0,z0,x1,y1,z1 nor sphere:x,y,z,radius", text),
+      {}};
   const std::size_t colon = text.find(':');
   if (colon == std::string_view::npos) return malformed;
   const std::string_view kind = text.substr(0, colon);
@@ -43,13 +45,17 @@ Result<Region> parse_region(std::string_view text) {
   const std::vector<double>& v = *numbers;
   if (kind == "box" && v.size() == 6) {
     const Box box{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
-    if (box.low.x < box.high.x && box.low.y < box.high.y && box.low.z < box.high.z) return Region{box};
+    if (box.low.x < box.high.x && box.low.y < box.high.y && box.low.z < box.high.z)
+      return Region{box};
     return Error{ErrorCode::invalid_argument,
-                 fmt::format("'{}' is empty: the first corner must be below the second", text), {}};
+                 fmt::format("'{}' is empty: the first corner must be below the second", text),
+                 {}};
   }
   if (kind == "sphere" && v.size() == 4) {
     if (v[3] > 0) return Region{Ball{{v[0], v[1], v[2]}, v[3]}};
-    return Error{ErrorCode::invalid_argument, fmt::format("'{}' is empty: the radius must be positive", text), {}};
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("'{}' is empty: the radius must be positive", text),
+                 {}};
   }
   return malformed;
 }

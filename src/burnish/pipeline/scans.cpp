@@ -18,15 +18,20 @@ namespace {
 namespace fs = std::filesystem;
 
 Error no_poses(std::size_t count) {
-  return {ErrorCode::invalid_argument,
-          fmt::format("{} scans and no poses: give --poses FILE, a line `x y z qx qy qz qw` (camera to "
-                      "world) for each of them, or a Redwood trajectory.log or TUM trajectory", count), {}};
+  return {
+      ErrorCode::invalid_argument,
+      fmt::format("{} scans and no poses: give --poses FILE, a line `x y z qx qy qz qw` (camera to "
+                  "world) for each of them, or a Redwood trajectory.log or TUM trajectory",
+                  count),
+      {}};
 }
 
 /// Depth images, seen through their camera.
 class FrameScans : public Scans {
  public:
-  explicit FrameScans(FrameSequence frames) : frames_(std::move(frames)) { notes_ = frames_.notes(); }
+  explicit FrameScans(FrameSequence frames) : frames_(std::move(frames)) {
+    notes_ = frames_.notes();
+  }
 
   std::size_t size() const override { return frames_.size(); }
 
@@ -37,15 +42,16 @@ class FrameScans : public Scans {
   }
 
   std::optional<Viewpoint> viewpoint() const override {
-    return Viewpoint{frames_.camera(), frames_.files().front().T_world_camera.value_or(RigidTransform{})};
+    return Viewpoint{frames_.camera(),
+                     frames_.files().front().T_world_camera.value_or(RigidTransform{})};
   }
 
  private:
   FrameSequence frames_;
 };
 
-/// Gives the points of an organized cloud the sigma that the sensor's noise means across the surface,
-/// as unproject does for frames. The camera looks along +z from the viewpoint.
+/// Gives the points of an organized cloud the sigma that the sensor's noise means across the
+/// surface, as unproject does for frames. The camera looks along +z from the viewpoint.
 void add_sigma(PointCloud& cloud, const Sensor& sensor) {
   const Vec3d eye = cloud.viewpoint.value_or(Vec3d{}) - cloud.frame.origin;
   cloud.attributes.sigma.assign(cloud.positions.size(), 0);
@@ -53,7 +59,8 @@ void add_sigma(PointCloud& cloud, const Sensor& sensor) {
     if (!is_finite(cloud.positions[i])) continue;
     const Vec3d ray = Vec3d(cloud.positions[i]) - eye;
     const Vec3d normal(cloud.attributes.normals[i]);
-    const double cosine = normal == Vec3d{} ? 1 : std::min(1., std::abs(dot(normalized(ray), normal)));
+    const double cosine =
+        normal == Vec3d{} ? 1 : std::min(1., std::abs(dot(normalized(ray), normal)));
     const double theta = std::acos(cosine), sine = std::sin(theta);
     const double axial = sensor.noise.axial(ray.z, theta) * cosine;
     const double lateral = sensor.noise.lateral(ray.z, theta, sensor.camera.fx) * sine;
@@ -82,8 +89,10 @@ class CloudScans : public Scans {
       }
     }
     if (cloud->grid && cloud->attributes.sigma.empty()) add_sigma(*cloud, sensor_);
-    if (cloud->attributes.observations.empty()) cloud->attributes.observations.assign(cloud->positions.size(), 1);
-    if (cloud->attributes.origin.empty()) cloud->attributes.origin.assign(cloud->positions.size(), Origin::seen);
+    if (cloud->attributes.observations.empty())
+      cloud->attributes.observations.assign(cloud->positions.size(), 1);
+    if (cloud->attributes.origin.empty())
+      cloud->attributes.origin.assign(cloud->positions.size(), Origin::seen);
     if (poses_.empty()) return cloud;
     return transformed(*std::move(cloud), poses_[i]);
   }
@@ -95,7 +104,8 @@ class CloudScans : public Scans {
 };
 
 Result<std::unique_ptr<Scans>> open_clouds(const ScanInputs& inputs) {
-  const Result<Sensor> sensor = find_sensor(inputs.frames.sensor.empty() ? "kinect_v1" : inputs.frames.sensor);
+  const Result<Sensor> sensor =
+      find_sensor(inputs.frames.sensor.empty() ? "kinect_v1" : inputs.frames.sensor);
   if (!sensor) return sensor.error();
   std::vector<RigidTransform> poses;
   if (!inputs.frames.poses.empty()) {
@@ -110,7 +120,8 @@ Result<std::unique_ptr<Scans>> open_clouds(const ScanInputs& inputs) {
   } else if (inputs.paths.size() > 1) {
     return no_poses(inputs.paths.size());
   }
-  return std::unique_ptr<Scans>(std::make_unique<CloudScans>(inputs.paths, std::move(poses), *sensor));
+  return std::unique_ptr<Scans>(
+      std::make_unique<CloudScans>(inputs.paths, std::move(poses), *sensor));
 }
 
 Result<std::unique_ptr<Scans>> open_images(const ScanInputs& inputs) {
@@ -120,23 +131,64 @@ Result<std::unique_ptr<Scans>> open_images(const ScanInputs& inputs) {
   return std::unique_ptr<Scans>(std::make_unique<FrameScans>(*std::move(frames)));
 }
 
-bool is_image_or_folder(const fs::path& path) {
+std::string lower_ending(const fs::path& path) {
   std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return fs::is_directory(path) || ending == ".png" || ending == ".pgm" || ending == ".tif" || ending == ".tiff";
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+bool is_image(const fs::path& path) {
+  const std::string ending = lower_ending(path);
+  return ending == ".png" || ending == ".pgm" || ending == ".tif" || ending == ".tiff";
+}
+
+/// The organized clouds of a folder by name; none where it holds depth images or no clouds.
+std::vector<fs::path> clouds_in(const fs::path& folder) {
+  std::vector<fs::path> clouds;
+  std::error_code unreadable;
+  for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
+    if (is_image(entry.path())) return {};
+    if (lower_ending(entry.path()) == ".pcd") clouds.push_back(entry.path());
+  }
+  std::sort(clouds.begin(), clouds.end());
+  return clouds;
+}
+
+/// Folders of clouds replaced by what they hold.
+std::vector<fs::path> unfolded(const std::vector<fs::path>& paths) {
+  std::vector<fs::path> result;
+  for (const fs::path& path : paths) {
+    const std::vector<fs::path> clouds =
+        fs::is_directory(path) ? clouds_in(path) : std::vector<fs::path>{};
+    if (clouds.empty()) {
+      result.push_back(path);
+    } else {
+      result.insert(result.end(), clouds.begin(), clouds.end());
+    }
+  }
+  return result;
+}
+
+bool is_image_or_folder(const fs::path& path) {
+  return fs::is_directory(path) || is_image(path);
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& inputs) {
-  if (inputs.paths.empty()) return Error{ErrorCode::invalid_argument, "nothing to reconstruct from", {}};
-  for (const fs::path& path : inputs.paths) {
-    if (!fs::exists(path)) return Error{ErrorCode::not_found, "no such file or folder", path.string()};
+Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& given) {
+  if (given.paths.empty())
+    return Error{ErrorCode::invalid_argument, "nothing to reconstruct from", {}};
+  for (const fs::path& path : given.paths) {
+    if (!fs::exists(path))
+      return Error{ErrorCode::not_found, "no such file or folder", path.string()};
   }
+  const ScanInputs inputs{unfolded(given.paths), given.frames};
   const bool images = is_image_or_folder(inputs.paths.front());
   for (const fs::path& path : inputs.paths) {
     if (is_image_or_folder(path) != images) {
-      return Error{ErrorCode::invalid_argument, "depth frames and clouds cannot be mixed", path.string()};
+      return Error{ErrorCode::invalid_argument, "depth frames and clouds cannot be mixed",
+                   path.string()};
     }
   }
   return images ? open_images(inputs) : open_clouds(inputs);

@@ -17,7 +17,8 @@ namespace burnish {
 /// clouds use its poses, and organized ones without sigma its sensor's noise (kinect_v1's where it
 /// names none).
 struct ScanInputs {
-  std::vector<std::filesystem::path> paths;  ///< folders of frames, single frames, or clouds
+  std::vector<std::filesystem::path>
+      paths;  ///< folders of frames or of PCD, single frames, or clouds
   FrameOptions frames;
 };
 

@@ -9,7 +9,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kSampled = 61;  // every so-manieth point stands for the rest in a median
+constexpr std::size_t kSampled = 61;  // every so-manieth pixel stands for the rest in a median
 constexpr double kLeastSigma = 1e-3;  // of the spacing; weights stay finite where sigma is 0
 
 double median(std::vector<double>& values) {
@@ -19,11 +19,17 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-/// The distance from every kSampled-th point to its nearest neighbour that is not in its place.
+/// Which points of a cloud stand for all in a median. Where there is no grid, the order of points
+/// means nothing and nothing may depend on it.
+std::size_t sample_step(const PointCloud& cloud) {
+  return cloud.grid ? kSampled : 1;
+}
+
+/// The distance from every point to its nearest neighbour that is not in its place.
 void add_neighbour_distances(const PointCloud& cloud, std::vector<double>& distances) {
   const NeighbourGrid grid(cloud.positions);
   std::vector<Neighbour> found;
-  for (std::size_t i = 0; i < cloud.positions.size(); i += kSampled) {
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
     grid.nearest(cloud.positions[i], 4, found);
     for (const Neighbour& neighbour : found) {
       if (neighbour.squared_distance > 0) {
@@ -65,7 +71,7 @@ double CloudMeasurements::typical_sigma() const {
   if (!has_sigma_) return 0;
   std::vector<double> sigmas;
   for (const PointCloud& cloud : clouds_) {
-    for (std::size_t i = 0; i < cloud.positions.size(); i += kSampled) {
+    for (std::size_t i = 0; i < cloud.positions.size(); i += sample_step(cloud)) {
       if (is_finite(cloud.positions[i])) sigmas.push_back(cloud.attributes.sigma[i]);
     }
   }
@@ -96,7 +102,7 @@ Measurement CloudMeasurements::typical() const {
 bool CloudMeasurements::counts(std::size_t list, std::size_t i) const {
   const PointCloud& cloud = clouds_[list];
   if (!is_finite(cloud.positions[i]) || cloud.attributes.normals[i] == Vec3f{}) return false;
-  if (!cloud.grid) return i % (step_ * step_) == 0;
+  if (!cloud.grid) return true;
   return i % cloud.grid->width % step_ == 0 && i / cloud.grid->width % step_ == 0;
 }
 

@@ -27,7 +27,7 @@ class CloudMeasurements : public MeasurementSource {
     double spacing = 0, registration = 0, correlation = 0;
   };
   void weigh(const Weighing& weighing) { weighing_ = weighing; }
-  /// Only every step-th row and column of grids, every step^2-th point of other clouds.
+  /// Only every step-th row and column of grids; all points of other clouds.
   void thin(std::size_t step) { step_ = step; }
 
   /// Standard deviation of a measurement with that sigma under the present weighing, m.

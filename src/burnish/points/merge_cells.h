@@ -12,7 +12,7 @@ struct MergeCellsParams {
   double spacing = 0;        ///< m; 0: twice the median distance between neighbouring rays
   double registration = 0;   ///< how far poses are off, one standard deviation, m; 0: estimated
   double correlation = 0.5;  ///< of the noise of neighbouring pixels of one image
-  int min_observations = 3;  ///< points that fewer measurements support are left out
+  int min_observations = 1;  ///< points that fewer measurements support are left out
 
   static const Schema<MergeCellsParams>& schema();
 };
@@ -21,16 +21,21 @@ struct MergeCellsParams {
 /// the measurements of its patch, weighted by 1 / (sigma^2 + registration^2); its normal is theirs.
 ///
 /// 1. Measurements are averaged in fine cells: columns half a spacing wide along the axis nearest
-/// to
-///    their normal, as deep as the noise. Sides of a sheet have opposite normals and share none.
+///    to their normal, as deep as the noise. Sides of a sheet have opposite normals and share none.
 /// 2. Where a column holds most, a seed slides along it to where the weighted mean of all
 ///    measurements lies whose normals agree within 60 degrees, in a window 1.5 spacings in radius
 ///    across the surface and three standard deviations deep to either side (mean shift to a moving
 ///    least squares surface; cf. Levin 1998). Where measurements are too few to bring sigma below a
 ///    third of the spacing, spacing and window grow, up to four times.
-/// 3. Thinning keeps, in the order of the columns, seeds that no kept one is nearer to than the
-///    spacing, and drops layers with less than a third of the support of one beside them.
-/// 4. Every cell gives its measurements to the nearest kept point: observations is their number.
+/// 3. Left out are seeds whose normal turns away from their column as they slide (a stray normal
+///    put them there), those with less than a third of the support of a layer beside them, and
+///    those with less than a quarter of what most seeds within three spacings have: the frayed
+///    edges of scans. Support counts relative to the surroundings, so that what a single frame saw
+///    stays where no other saw it.
+/// 4. Of the others stay, in the order of the columns, those that no kept one is nearer to than the
+///    spacing. Every cell gives its measurements to the nearest: observations is their number.
+///    Points with less than a quarter of the observations of most within six spacings are left out
+///    too.
 ///
 /// sigma = 1 / sqrt(sum of information), an upper estimate, as windows are wider than patches.
 /// n pixels of one image in a patch share `correlation` of their noise, so each of them adds

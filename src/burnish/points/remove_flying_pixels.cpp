@@ -90,8 +90,8 @@ Result<CleaningReport> remove_flying_pixels(PointCloud& cloud, const FlyingPixel
   if (auto valid = FlyingPixelParams::schema().check(params); !valid) return valid.error();
   if (auto sound = check(cloud); !sound) return sound.error();
   if (!cloud.grid) {
-    return Error{ErrorCode::invalid_argument,
-                 "flying pixels are found in organized clouds, this one has no image grid",
+    return Error{ErrorCode::bad_geometry,
+                 "the cloud is not organized: it has no image grid to find flying pixels in",
                  {}};
   }
   const ProjectiveGrid grid = project_grid(cloud);

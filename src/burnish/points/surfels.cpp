@@ -9,15 +9,20 @@
 namespace burnish {
 namespace {
 
-constexpr double kAgree = 0.5;     // least cosine between normals of one surface
-constexpr double kAlong = 0.3;     // least component along the axis of a field to look into
-constexpr double kWindow = 1.5;    // radius of a window, spacings
-constexpr double kDeep = 3;        // half its depth, standard deviations
-constexpr double kSharp = 1. / 3;  // sigma of a point that is fine enough, spacings
-constexpr double kWidest = 4;      // largest growth of the spacing
-constexpr double kWeak = 1. / 3;   // support of a layer that yields to one beside it
-constexpr double kApart = 0.5;     // least distance across creases, spacings
-constexpr int kRounds = 2;         // of the mean shift
+constexpr double kAgree = 0.5;      // least cosine between normals of one surface
+constexpr double kAlong = 0.3;      // least component along the axis of a field to look into
+constexpr double kUpright = 0.4;    // least component along its column's axis of a surfel's normal
+constexpr double kWindow = 1.5;     // radius of a window, spacings
+constexpr double kDeep = 3;         // half its depth, standard deviations
+constexpr double kSharp = 1. / 3;   // sigma of a point that is fine enough, spacings
+constexpr double kWidest = 4;       // largest growth of the spacing
+constexpr double kWeak = 1. / 3;    // support of a layer that yields to one beside it
+constexpr double kFaint = 1. / 4;   // support of a point that yields to most around it
+constexpr double kSparse = 1. / 4;  // observations of a point that yields to most around it
+constexpr double kMost = 0.6;       // more than the half that is another side of a sheet
+constexpr double kAround = 3;       // how far around is, spacings
+constexpr double kApart = 0.5;      // least distance across creases, spacings
+constexpr double kLoose = 0.35;     // distance between candidates, spacings
 
 bool agree(const Vec3d& n, const Vec3f& m) {
   return dot(n, Vec3d(m)) > kAgree;
@@ -115,6 +120,12 @@ void visit_around(const Surfels& surfels, std::size_t i, double radius, const Vi
       });
 }
 
+/// Whether the surface around surfel i is not the one that its column cuts: a stray normal put the
+/// seed into a field along which it cannot slide, and others seed the surface there.
+bool misplaced(const Surfels& surfels, std::size_t i) {
+  return std::abs(surfels.points[i].normal[surfels.index.axis(i)]) < kUpright;
+}
+
 /// Whether a layer with far more support lies above or below surfel i.
 bool weak(const Surfels& surfels, std::size_t i) {
   const Surfel& surfel = surfels.points[i];
@@ -126,15 +137,41 @@ bool weak(const Surfels& surfels, std::size_t i) {
   return found;
 }
 
-/// Whether a kept surfel is too near to surfel i: nearer than the spacing on the same surface, or
-/// nearer than half of it on any that does not face the other way.
-bool crowded(const Surfels& surfels, std::size_t i, const std::vector<std::uint8_t>& is_kept) {
+/// Whether most surfels within `reach` spacings of surfel i, whatever way they face, have a support
+/// above `limit`.
+template <class Support>
+bool outdone(const Surfels& surfels, std::size_t i, double reach, double limit,
+             const Support& support) {
+  const double radius = reach * surfels.points[i].spacing;
+  const Vec3d p(surfels.points[i].position);
+  double better = 0, all = 0;
+  surfels.index.visit(p, {}, radius, -1, [&](std::uint32_t j, std::size_t) {
+    if (squared_norm(Vec3d(surfels.points[j].position) - p) > radius * radius) return;
+    better += support(j) > limit;
+    all += 1;
+  });
+  return better > kMost * all;
+}
+
+/// Whether the window of surfel i holds far less, for its size, than those of most around it.
+bool faint(const Surfels& surfels, std::size_t i) {
+  const auto density = [&](std::size_t j) {
+    const double spacing = surfels.points[j].spacing;
+    return surfels.points[j].information / (spacing * spacing);
+  };
+  return outdone(surfels, i, kAround, density(i) / kFaint, density);
+}
+
+/// Whether a kept surfel is too near to surfel i: nearer than `share` of the spacing on the same
+/// surface, or nearer than half of that on any that does not face the other way.
+bool crowded(const Surfels& surfels, std::size_t i, double share,
+             const std::vector<std::uint8_t>& is_kept) {
   const Surfel& surfel = surfels.points[i];
   bool near = false;
-  visit_around(surfels, i, surfel.spacing,
+  visit_around(surfels, i, share * surfel.spacing,
                [&](std::uint32_t j, const Element::Offset&) { near |= is_kept[j] != 0; });
   if (near) return true;
-  const double apart = kApart * surfel.spacing;
+  const double apart = kApart * share * surfel.spacing;
   const Vec3d p(surfel.position), n(surfel.normal);
   surfels.index.visit(p, n, apart, -kAgree, [&](std::uint32_t j, std::size_t) {
     const Surfel& other = surfels.points[j];
@@ -142,6 +179,24 @@ bool crowded(const Surfels& surfels, std::size_t i, const std::vector<std::uint8
             squared_norm(Vec3d(other.position) - p) < apart * apart;
   });
   return near;
+}
+
+/// Keeps, in their order, surfels that are not `left_out` and that no kept one is nearer to than
+/// `share` of the spacing. False where cancelled.
+bool keep_apart(Surfels& surfels, double share, const std::vector<std::uint8_t>& left_out,
+                const Context& context) {
+  const std::size_t count = surfels.points.size();
+  std::vector<std::uint8_t> is_kept(count);
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (i % 8192 == 0 && context.cancelled()) return false;
+    if (left_out[i] || crowded(surfels, i, share, is_kept)) continue;
+    is_kept[i] = 1;
+    kept.push_back(i);
+  }
+  surfels = {gather(surfels.points, kept), surfels.index.subset(kept)};
+  context.progress(1);
+  return true;
 }
 
 }  // namespace
@@ -179,42 +234,38 @@ Surfels every_cell(const SurfaceCells& cells, double spacing) {
   return surfels;
 }
 
-bool slide(const SurfaceCells& cells, bool grow, Surfels& surfels, const Context& context) {
-  for (int round = 0; round < kRounds; ++round) {
-    const bool complete = parallel_for(
-        context.part(static_cast<double>(round) / kRounds, (round + 1.0) / kRounds),
-        surfels.points.size(),
-        [&](IndexRange range) {
-          for (std::size_t i = range.begin; i < range.end; ++i) {
-            Surfel& surfel = surfels.points[i];
+bool slide(const SurfaceCells& cells, int rounds, Surfels& surfels, const Context& context) {
+  return parallel_for(
+      context, surfels.points.size(),
+      [&](IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          Surfel& surfel = surfels.points[i];
+          for (int round = 0; round < rounds; ++round) {
             surfel = shifted(cells, surfel, surfels.index.axis(i));
-            if (round > 0 || !grow) continue;
-            surfel.spacing =
-                static_cast<float>(sufficient_spacing(surfel.information, surfel.spacing));
           }
-        },
-        512);
-    if (!complete) return false;
-  }
-  return true;
+        }
+      },
+      512);
 }
 
-bool thin(const Surfels& surfels, std::vector<std::uint32_t>& kept, const Context& context) {
-  const std::size_t count = surfels.points.size();
-  std::vector<std::uint8_t> is_weak(count), is_kept(count);
-  const bool complete = parallel_for(context.part(0, 0.5), count, [&](IndexRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) is_weak[i] = weak(surfels, i);
-  });
-  if (!complete) return false;
-  kept.clear();
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (i % 8192 == 0 && context.cancelled()) return false;
-    if (is_weak[i] || crowded(surfels, i, is_kept)) continue;
-    is_kept[i] = 1;
-    kept.push_back(i);
+void grow(Surfels& surfels) {
+  for (Surfel& surfel : surfels.points) {
+    surfel.spacing = static_cast<float>(sufficient_spacing(surfel.information, surfel.spacing));
   }
-  context.progress(1);
-  return true;
+}
+
+bool thin_loosely(Surfels& surfels, const Context& context) {
+  return keep_apart(surfels, kLoose, std::vector<std::uint8_t>(surfels.points.size()), context);
+}
+
+bool thin(Surfels& surfels, const Context& context) {
+  std::vector<std::uint8_t> is_bad(surfels.points.size());
+  const bool complete = parallel_for(context.part(0, 0.7), is_bad.size(), [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      is_bad[i] = misplaced(surfels, i) || weak(surfels, i) || faint(surfels, i);
+    }
+  });
+  return complete && keep_apart(surfels, 1, is_bad, context.part(0.7, 1));
 }
 
 bool find_owners(const SurfaceCells& cells, const Surfels& surfels,
@@ -244,6 +295,17 @@ bool find_owners(const SurfaceCells& cells, const Surfels& surfels,
   }
   context.progress(1);
   return true;
+}
+
+bool find_sparse(const Surfels& surfels, const std::vector<std::uint32_t>& observations,
+                 std::vector<std::uint8_t>& is_sparse, const Context& context) {
+  is_sparse.assign(surfels.points.size(), 0);
+  return parallel_for(context, is_sparse.size(), [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      is_sparse[i] = outdone(surfels, i, 2 * kAround, observations[i] / kSparse,
+                             [&](std::size_t j) { return observations[j]; });
+    }
+  });
 }
 
 }  // namespace burnish

@@ -10,7 +10,8 @@ const Schema<SmallComponentsParams>& SmallComponentsParams::schema() {
   using P = SmallComponentsParams;
   static const auto schema =
       Schema<P>()
-          .integer("min_triangles", &P::min_triangles, at_least(0), "a component with fewer triangles goes")
+          .integer("min_triangles", &P::min_triangles, at_least(0),
+                   "a component with fewer triangles goes")
           .flag("largest_only", &P::largest_only, "keep nothing but the largest component");
   return schema;
 }
@@ -22,7 +23,8 @@ Facts RepairReport::facts() const {
           {"removed_vertices", static_cast<double>(removed_vertices), ""}};
 }
 
-Result<RepairReport> remove_small_components(TriangleMesh& mesh, const SmallComponentsParams& params,
+Result<RepairReport> remove_small_components(TriangleMesh& mesh,
+                                             const SmallComponentsParams& params,
                                              const Context& context) {
   if (auto valid = SmallComponentsParams::schema().check(params); !valid) return valid.error();
   if (auto sound = check(mesh); !sound) return sound.error();
@@ -37,7 +39,8 @@ Result<RepairReport> remove_small_components(TriangleMesh& mesh, const SmallComp
   const auto largest = std::max_element(sizes.begin(), sizes.end());
   std::vector<bool> kept(sizes.size());
   for (std::size_t c = 0; c < sizes.size(); ++c) {
-    kept[c] = sizes[c] >= params.min_triangles && (!params.largest_only || sizes.begin() + static_cast<std::ptrdiff_t>(c) == largest);
+    kept[c] = sizes[c] >= params.min_triangles &&
+              (!params.largest_only || sizes.begin() + static_cast<std::ptrdiff_t>(c) == largest);
   }
 
   context.progress(0.5);

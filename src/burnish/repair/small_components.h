@@ -16,7 +16,7 @@ struct SmallComponentsParams {
 
 /// What a repair did.
 struct RepairReport {
-  std::size_t components = 0;          ///< before
+  std::size_t components = 0;  ///< before
   std::size_t removed_components = 0;
   std::size_t removed_triangles = 0;
   std::size_t removed_vertices = 0;
@@ -28,7 +28,8 @@ struct RepairReport {
 /// specks of noise, with the vertices that nothing uses then. Of components of equal size the one
 /// with the first triangle counts as larger. Order is kept. O(#V + #T log #T).
 /// Errors: invalid_argument, bad_geometry, cancelled; `mesh` is then unchanged.
-Result<RepairReport> remove_small_components(TriangleMesh& mesh, const SmallComponentsParams& params = {},
+Result<RepairReport> remove_small_components(TriangleMesh& mesh,
+                                             const SmallComponentsParams& params = {},
                                              const Context& context = {});
 
 }  // namespace burnish
