@@ -125,5 +125,3 @@ BENCHMARK(BM_FwriteFsync)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRea
 BENCHMARK(BM_WritePly)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
-
-BENCHMARK_MAIN();
