@@ -226,6 +226,30 @@ TEST(MergeCells, WhatOneFrameSawStaysWhereNoOtherSawItAndGoesWhereManyDid) {
   }
 }
 
+TEST(MergeCells, PixelsAlongOutlinesTellLess) {
+  std::vector<PointCloud> clouds = plane_views(2);
+  constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+  for (PointCloud& cloud : clouds) {
+    for (Vec3f& p : cloud.positions) {
+      if (p.x > 0) p = {kMissing, kMissing, kMissing};
+    }
+  }
+  const float pixel = 1.2f / 146;
+  const auto merged = merge_cells(clouds, {.spacing = 2 * pixel, .correlation = 0});
+  ASSERT_TRUE(merged);
+  double sigma[2] = {0, 0}, count[2] = {0, 0};  // within the surface and along its outline
+  for (std::size_t i = 0; i < merged->cloud.positions.size(); ++i) {
+    const Vec3f& p = merged->cloud.positions[i];
+    if (!inner(p)) continue;
+    const bool outline = p.x > -pixel;
+    sigma[outline] += merged->cloud.attributes.sigma[i];
+    count[outline] += 1;
+  }
+  // Two of three pixels' columns in a patch at the outline count for a sixteenth, or all do.
+  EXPECT_GT(sigma[1] / count[1], 1.5 * sigma[0] / count[0]);
+  EXPECT_LT(sigma[1] / count[1], 4.5 * sigma[0] / count[0]);
+}
+
 TEST(MergeCells, TakesEmptyCloudsAndSinglePoints) {
   const std::vector<PointCloud> empty(2);
   const auto nothing = merge_cells(empty);

@@ -9,8 +9,10 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kSampled = 61;  // every so-manieth pixel stands for the rest in a median
-constexpr double kLeastSigma = 1e-3;  // of the spacing; weights stay finite where sigma is 0
+constexpr std::size_t kSampled = 61;      // every so-manieth pixel stands for the rest in a median
+constexpr int kFrayed = 2;                // pixels along outlines that tell less
+constexpr double kFrayedTrust = 1. / 16;  // namely as if their sigma were four times as large
+constexpr double kLeastSigma = 1e-3;      // of the spacing; weights stay finite where sigma is 0
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -40,13 +42,41 @@ void add_neighbour_distances(const PointCloud& cloud, std::vector<double>& dista
   }
 }
 
+/// Which pixels lie within kFrayed pixels of an outline: of missing pixels or of something farther.
+/// What they saw may lie beside the surface by as much as the image is unsharp.
+std::vector<std::uint8_t> find_outlines(const ProjectiveGrid& grid, std::span<const float> noise) {
+  const std::size_t width = grid.size.width, count = grid.pixels.size();
+  const auto beyond = [&](std::size_t i, std::size_t j) {
+    const auto &a = grid.pixels[i], &b = grid.pixels[j];
+    return !(b.w > 0) || (b.w < a.w && !same_surface(a, b, std::max(noise[i], noise[j])));
+  };
+  std::vector<std::uint8_t> outlined(count);
+  for (int ring = 0; ring < kFrayed; ++ring) {
+    const std::vector<std::uint8_t> before = outlined;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (before[i] || !(grid.pixels[i].w > 0)) continue;
+      const auto ends_at = [&](std::size_t j) {
+        return ring == 0 ? beyond(i, j) : before[j] && !beyond(j, i);
+      };
+      const std::size_t column = i % width;
+      outlined[i] = (column > 0 && ends_at(i - 1)) || (column + 1 < width && ends_at(i + 1)) ||
+                    (i >= width && ends_at(i - width)) || (i + width < count && ends_at(i + width));
+    }
+  }
+  return outlined;
+}
+
 }  // namespace
 
 CloudMeasurements::CloudMeasurements(std::span<const PointCloud> clouds) : clouds_(clouds) {
   for (const PointCloud& cloud : clouds) {
-    View view{cloud.frame.origin - clouds[0].frame.origin, viewpoint_or_origin(cloud)};
-    if (cloud.grid) view.pitch = pixel_pitch(project_grid(cloud));
-    views_.push_back(view);
+    View view{cloud.frame.origin - clouds[0].frame.origin, viewpoint_or_origin(cloud), 0, {}};
+    if (cloud.grid) {
+      const ProjectiveGrid grid = project_grid(cloud);
+      view.pitch = pixel_pitch(grid);
+      view.outlined = find_outlines(grid, depth_noise(grid, cloud.attributes.sigma));
+    }
+    views_.push_back(std::move(view));
     has_sigma_ = has_sigma_ && (cloud.positions.empty() || !cloud.attributes.sigma.empty());
   }
 }
@@ -129,6 +159,7 @@ Measurement CloudMeasurements::read(std::size_t list, std::size_t i) const {
     const double in_patch =
         weighing_.spacing * weighing_.spacing * facing / (footprint * footprint);
     m.information /= 1 + std::max(0.0, in_patch - 1) * weighing_.correlation;
+    if (view.outlined[i]) m.information *= kFrayedTrust;
   }
   return m;
 }

@@ -44,6 +44,7 @@ class CloudMeasurements : public MeasurementSource {
     Vec3d shift;       ///< to the first cloud's frame
     Vec3d eye;         ///< in the cloud's own
     double pitch = 0;  ///< between the rays of neighbouring pixels, rad; 0: unorganized
+    std::vector<std::uint8_t> outlined;  ///< pixels near outlines; of grids
   };
   double sigma(std::size_t list, std::size_t i) const;
 
