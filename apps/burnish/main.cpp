@@ -2,6 +2,7 @@
 // verbs/.
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <new>
 #include <utility>
 #include <vector>
@@ -46,6 +47,14 @@ int run(int count, char** words) {
     app.parse(count, words);
   } catch (const CLI::Success& help) {
     return app.exit(help);
+  } catch (const CLI::RequiredError& error) {
+    const std::vector<std::string> unknown = app.remaining();
+    if (app.get_subcommands().empty() && !unknown.empty()) {
+      return fail({ErrorCode::invalid_argument,
+                   fmt::format("'{}' is no verb; burnish --help lists them", unknown.front()), {}});
+    }
+    app.exit(error);
+    return exit_status(ErrorCode::invalid_argument);
   } catch (const CLI::ParseError& error) {
     app.exit(error);
     return exit_status(ErrorCode::invalid_argument);
@@ -63,6 +72,9 @@ int run(int count, char** words) {
     context.threads = session.threads;
     const Result<void> done = actions[i](session, context);
     if (!done) return fail(done.error());
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    return fail({ErrorCode::io_failure, "standard output could not be written", {}});
   }
   return 0;
 }

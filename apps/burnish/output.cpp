@@ -32,8 +32,9 @@ Result<void> check_output(const std::string& path) {
 
 Result<void> check_folder_of(const std::string& path) {
   namespace fs = std::filesystem;
+  std::error_code unreadable;
   const fs::path folder = fs::path(path).parent_path();
-  if (folder.empty() || fs::is_directory(folder)) return {};
+  if (folder.empty() || fs::is_directory(folder, unreadable)) return {};
   return Error{ErrorCode::not_found, "the folder to write to is not there", path};
 }
 

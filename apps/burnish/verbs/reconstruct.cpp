@@ -19,12 +19,18 @@ struct Options {
   std::vector<std::string> clean, merge, clean_merged, triangulate, repair, smooth;
 };
 
+const std::vector<std::string> kNone{"none"};
+
+Error cannot_leave_out(std::string_view option) {
+  return {ErrorCode::invalid_argument, fmt::format("{} is a step that cannot be left out", option), {}};
+}
+
 /// "none" alone leaves a step out; nothing leaves it at its default.
 Result<void> lay_over(std::vector<Method>& step, const std::vector<std::string>& texts) {
   if (texts.empty()) return {};
   Result<std::vector<Method>> methods = parse_methods(texts);
   if (!methods) return std::move(methods).error();
-  step = texts == std::vector<std::string>{"none"} ? std::vector<Method>{} : *std::move(methods);
+  step = texts == kNone ? std::vector<Method>{} : *std::move(methods);
   return {};
 }
 
@@ -46,7 +52,9 @@ Result<Recipe> recipe_of(const Options& options) {
   for (const auto& [step, texts] : steps) {
     if (auto laid = lay_over(*step, *texts); !laid) return laid.error();
   }
-  if (!merge.empty()) recipe.merge = merge.back();
+  if (merge.empty()) return cannot_leave_out("--merge");
+  if (options.triangulate == kNone) return cannot_leave_out("--triangulate");
+  recipe.merge = merge.back();
   if (!triangulate.empty()) recipe.triangulate = triangulate.back();
   return recipe;
 }

@@ -23,7 +23,7 @@ void print(const Figure6& figure) {
                numbers_text(row.computed), row.difference(), row.agrees() ? "" : "  DIFFERS",
                row.remark.empty() ? "" : "  " + row.remark);
   }
-  fmt::print("\nLargest difference: coordinates {:.2g}, distances {:.2g}.\n\n{}\n",
+  fmt::print("\nLargest difference: coordinates {:.2g}, distances and their means {:.2g}.\n\n{}\n",
              figure.largest_difference("P"), figure.largest_difference("d"), figure6_explanation());
 }
 

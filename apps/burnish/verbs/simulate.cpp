@@ -17,7 +17,8 @@ struct Options {
 };
 
 Result<TriangleMesh> model_of(const std::string& name, const Context& context) {
-  if (std::filesystem::exists(name)) return read_mesh(name, context);
+  std::error_code unreadable;
+  if (std::filesystem::is_regular_file(name, unreadable)) return read_mesh(name, context);
   Result<TriangleMesh> shape = make_shape(name);
   if (shape) return shape;
   return Error{ErrorCode::not_found,

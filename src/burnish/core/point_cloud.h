@@ -21,7 +21,7 @@ struct PointCloud {
   std::vector<Vec3f> positions;   ///< #P, m
   Attributes attributes;          ///< per point
   std::optional<GridSize> grid;   ///< width * height == #P
-  std::optional<Vec3d> viewpoint; ///< the camera's position, where there was one camera
+  std::optional<Vec3d> viewpoint; ///< the camera's position in the world, where there was one camera
   Frame frame;
 
   friend bool operator==(const PointCloud&, const PointCloud&) = default;

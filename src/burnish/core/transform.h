@@ -5,8 +5,13 @@
 
 namespace burnish {
 
-/// The cloud moved by `T`: positions, normals, viewpoint. Missing pixels stay missing. The result
-/// is relative to the world's own origin.
+/// The frame to keep positions around `place` in: the world's own where float is fine enough for
+/// them (within 100 m: steps of 8 um), else one whose origin is `place` in whole metres.
+Frame frame_near(const Vec3d& place);
+
+/// The cloud moved by `T`, a world to another: positions, normals, viewpoint. Missing pixels stay
+/// missing; an organized cloud without a viewpoint was seen from the origin. The result is relative
+/// to the frame_near of where its own origin goes.
 PointCloud transformed(PointCloud cloud, const RigidTransform& T);
 
 }  // namespace burnish

@@ -147,6 +147,7 @@ Result<void> PcdReader::header_line(std::string_view key) {
     for (double& value : values) {
       if (!cursor_.number(value))
         return cursor_.line_error("VIEWPOINT was expected to have 7 numbers");
+      if (!std::isfinite(value)) return cursor_.line_error("VIEWPOINT must be finite");
     }
     header_.viewpoint = values;
     return {};

@@ -104,7 +104,8 @@ Result<TruthComparison> compare_to_truth(const TriangleMesh& mesh, const Triangl
   }
   if (auto sound = check_surface(mesh, "mesh"); !sound) return sound.error();
   if (auto sound = check_surface(truth, "truth"); !sound) return sound.error();
-  const ClosestPoint on_mesh(mesh), on_truth(truth);
+  const ClosestPoint on_mesh(mesh, context), on_truth(truth, context);
+  if (context.cancelled()) return cancelled();
   const Vec3d shift =
       mesh.frame.origin - truth.frame.origin;  // from the mesh's frame to the truth's
   const auto count = static_cast<std::size_t>(params.samples);
@@ -148,7 +149,8 @@ Result<Distances> compare_to_truth(const PointCloud& cloud, const TriangleMesh& 
   if (auto sound = check(cloud); !sound) return sound.error();
   if (auto sound = check_surface(truth, "truth"); !sound) return sound.error();
   const PointCloud points = without_missing(cloud);
-  const ClosestPoint on_truth(truth);
+  const ClosestPoint on_truth(truth, context);
+  if (context.cancelled()) return cancelled();
   const Vec3d shift = cloud.frame.origin - truth.frame.origin;
   std::vector<double> distances(points.positions.size());
   const bool complete = find_all(

@@ -86,6 +86,11 @@ Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& me
       },
       kFactsOfCreated);
   if (!mesh) return std::move(mesh).error();
+  if (mesh->value.triangles.empty()) {
+    return in_step("triangulate", method,
+                   {ErrorCode::bad_geometry,
+                    fmt::format("no triangle came of {} points", cloud.positions.size()), {}});
+  }
   return std::move(mesh->value);
 }
 

@@ -57,14 +57,16 @@ class Judge {
     Result<TriangleMesh> truth = read_mesh(*file, context);
     if (!truth) return std::move(truth).error();
     judge.truth_ = *std::move(truth);
+    judge.raw_.frame = judge.truth_->frame;
     return judge;
   }
 
   /// The points of one scan as the sensor gave them. Only their positions are kept.
   void see_raw_points(const PointCloud& cloud) {
     if (!truth_) return;
+    const Vec3d shift = cloud.frame.origin - raw_.frame.origin;
     for (const Vec3f& p : cloud.positions) {
-      if (is_finite(p)) raw_.positions.push_back(Vec3f(cloud.frame.origin + Vec3d(p)));
+      if (is_finite(p)) raw_.positions.push_back(Vec3f(shift + Vec3d(p)));
     }
   }
 
@@ -122,6 +124,11 @@ Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& rec
     }
     clouds.push_back(*std::move(cloud));
   }
+  if (points == 0) {
+    return Error{ErrorCode::bad_geometry,
+                 recipe.crop ? "no point is left of the scans after cropping" : "the scans hold no point",
+                 {}};
+  }
   reading.facts = {{"scans", count, ""}, {"points", static_cast<double>(points), ""}};
   record.steps.push_back(std::move(reading));
   for (Step& step : cleaning) {
@@ -133,7 +140,7 @@ Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& rec
 /// One cloud from all: organized only where there is a single organized scan.
 Result<PointCloud> merge_scans(std::vector<PointCloud> clouds, const Recipe& recipe, Record& record,
                                const Context& context) {
-  if (clouds.size() == 1 && (clouds.front().grid || recipe.merge.name == "none"))
+  if (clouds.size() == 1 && clouds.front().grid)
     return std::move(clouds.front());
   Result<PointCloud> merged =
       clouds.size() == 1 ? Result<PointCloud>(std::move(clouds.front()))

@@ -104,6 +104,11 @@ class CloudScans : public Scans {
 };
 
 Result<std::unique_ptr<Scans>> open_clouds(const ScanInputs& inputs) {
+  if (inputs.frames.camera || inputs.frames.depth_scale) {
+    return Error{ErrorCode::invalid_argument,
+                 "a camera and a depth scale belong to depth frames, not to clouds",
+                 inputs.paths.front().string()};
+  }
   const Result<Sensor> sensor =
       find_sensor(inputs.frames.sensor.empty() ? "kinect_v1" : inputs.frames.sensor);
   if (!sensor) return sensor.error();
@@ -129,6 +134,11 @@ Result<std::unique_ptr<Scans>> open_images(const ScanInputs& inputs) {
   if (!frames) return std::move(frames).error();
   if (frames->size() > 1 && !frames->has_poses()) return no_poses(frames->size());
   return std::unique_ptr<Scans>(std::make_unique<FrameScans>(*std::move(frames)));
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code unreadable;
+  return fs::is_directory(path, unreadable);
 }
 
 std::string lower_ending(const fs::path& path) {
@@ -160,7 +170,7 @@ std::vector<fs::path> unfolded(const std::vector<fs::path>& paths) {
   std::vector<fs::path> result;
   for (const fs::path& path : paths) {
     const std::vector<fs::path> clouds =
-        fs::is_directory(path) ? clouds_in(path) : std::vector<fs::path>{};
+        is_folder(path) ? clouds_in(path) : std::vector<fs::path>{};
     if (clouds.empty()) {
       result.push_back(path);
     } else {
@@ -171,7 +181,7 @@ std::vector<fs::path> unfolded(const std::vector<fs::path>& paths) {
 }
 
 bool is_image_or_folder(const fs::path& path) {
-  return fs::is_directory(path) || is_image(path);
+  return is_folder(path) || is_image(path);
 }
 
 }  // namespace
@@ -180,7 +190,8 @@ Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& given) {
   if (given.paths.empty())
     return Error{ErrorCode::invalid_argument, "nothing to reconstruct from", {}};
   for (const fs::path& path : given.paths) {
-    if (!fs::exists(path))
+    std::error_code unreadable;
+    if (!fs::exists(path, unreadable))
       return Error{ErrorCode::not_found, "no such file or folder", path.string()};
   }
   const ScanInputs inputs{unfolded(given.paths), given.frames};

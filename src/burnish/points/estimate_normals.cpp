@@ -52,7 +52,7 @@ Result<Estimate> unorganized(const PointCloud& cloud, const NormalParams& params
     for (std::size_t i = range.begin; i < range.end; ++i) {
       grid.nearest(cloud.positions[i], k, found);
       Vec3d normal = least_direction(cloud.positions, found);
-      if (cloud.viewpoint && dot(normal, *cloud.viewpoint - Vec3d(cloud.positions[i])) < 0) {
+      if (cloud.viewpoint && dot(normal, viewpoint_or_origin(cloud) - Vec3d(cloud.positions[i])) < 0) {
         normal = -normal;
       }
       estimate.normals[i] = Vec3f(normal);

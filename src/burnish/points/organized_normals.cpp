@@ -113,7 +113,7 @@ struct Windows {
 }  // namespace
 
 Vec3d viewpoint_or_origin(const PointCloud& cloud) {
-  return cloud.viewpoint.value_or(Vec3d{});
+  return cloud.viewpoint.value_or(Vec3d{}) - cloud.frame.origin;
 }
 
 ProjectiveGrid project_grid(const PointCloud& cloud) {

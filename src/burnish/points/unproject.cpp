@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "burnish/base/parallel.h"
+#include "burnish/core/transform.h"
 #include "burnish/points/organized_normals.h"
 
 namespace burnish {
@@ -78,6 +79,7 @@ Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& par
   PointCloud cloud;
   cloud.grid = grid.size;
   cloud.viewpoint = eye;
+  cloud.frame = frame_near(eye);
   cloud.positions.assign(count, {kMissing, kMissing, kMissing});
   cloud.attributes.sigma.assign(count, 0);
   cloud.attributes.observations.assign(count, 0);
@@ -98,7 +100,7 @@ Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& par
       const double z = frame.depth[i];
       const Vec3d point = frame.T_world_camera({pixel.u * z, pixel.v * z, z});
       const double theta = incidence(point, eye, cloud.attributes.normals[i]);
-      cloud.positions[i] = Vec3f(point);
+      cloud.positions[i] = Vec3f(point - cloud.frame.origin);
       cloud.attributes.sigma[i] = static_cast<float>(sigma_across(frame, z, theta));
       cloud.attributes.observations[i] = 1;
     }

@@ -17,7 +17,7 @@ struct UnprojectParams {
 
 /// The points that a depth camera saw, as an organized cloud in world coordinates: pixel (u, v) of
 /// depth z is T_world_camera ((u - cx) z / fx, (v - cy) z / fy, z), computed in double, kept in
-/// float. Pixels without depth or out of range are NaN. Attributes of every pixel:
+/// float around frame_near(the camera). Pixels without depth or out of range are NaN. Attributes of every pixel:
 ///   normals       as estimate_normals gives them, towards the camera; 0 where unknown or missing
 ///   sigma         one standard deviation of the position across the surface, m; 0 where missing
 ///   observations  1, and 0 where missing

@@ -39,8 +39,8 @@ Result<RepairReport> remove_small_components(TriangleMesh& mesh,
   const auto largest = std::max_element(sizes.begin(), sizes.end());
   std::vector<bool> kept(sizes.size());
   for (std::size_t c = 0; c < sizes.size(); ++c) {
-    kept[c] = sizes[c] >= params.min_triangles &&
-              (!params.largest_only || sizes.begin() + static_cast<std::ptrdiff_t>(c) == largest);
+    const bool is_largest = sizes.begin() + static_cast<std::ptrdiff_t>(c) == largest;
+    kept[c] = is_largest || (sizes[c] >= params.min_triangles && !params.largest_only);
   }
 
   context.progress(0.5);

@@ -8,7 +8,7 @@
 namespace burnish {
 
 struct SmallComponentsParams {
-  int min_triangles = 50;     ///< a component with fewer goes
+  int min_triangles = 50;     ///< a component with fewer goes, unless it is the largest
   bool largest_only = false;  ///< keep nothing but the component with the most triangles
 
   static const Schema<SmallComponentsParams>& schema();
@@ -25,7 +25,7 @@ struct RepairReport {
 };
 
 /// Removes the components (triangles joined across edges) that are too small to be anything but
-/// specks of noise, with the vertices that nothing uses then. Of components of equal size the one
+/// specks of noise, but never the largest, with the vertices that nothing uses then. Of components of equal size the one
 /// with the first triangle counts as larger. Order is kept. O(#V + #T log #T).
 /// Errors: invalid_argument, bad_geometry, cancelled; `mesh` is then unchanged.
 Result<RepairReport> remove_small_components(TriangleMesh& mesh,

@@ -90,8 +90,8 @@ struct Painter::Scene {
   std::vector<Vec3d> faces;    ///< unit normals of the triangles
   RayCaster caster;
 
-  explicit Scene(const TriangleMesh& source)
-      : mesh(source), unit(into_unit_ball()), normals(vertex_normals(unit)), caster(unit) {
+  Scene(const TriangleMesh& source, const Context& context)
+      : mesh(source), unit(into_unit_ball()), normals(vertex_normals(unit)), caster(unit, context) {
     faces.reserve(unit.triangles.size());
     for (std::size_t t = 0; t < unit.triangles.size(); ++t)
       faces.push_back(normalized(area_vector(unit, t)));
@@ -209,9 +209,11 @@ Painter::Painter(Painter&&) noexcept = default;
 Painter& Painter::operator=(Painter&&) noexcept = default;
 Painter::~Painter() = default;
 
-Result<Painter> Painter::create(const TriangleMesh& mesh) {
+Result<Painter> Painter::create(const TriangleMesh& mesh, const Context& context) {
   if (auto valid = check(mesh); !valid) return valid.error();
-  return Painter(std::make_unique<Scene>(mesh));
+  Painter painter(std::make_unique<Scene>(mesh, context));
+  if (context.cancelled()) return cancelled();
+  return painter;
 }
 
 Result<Image> Painter::paint(const View& view, const PictureOptions& options,
@@ -262,7 +264,7 @@ Result<Image> Painter::paint(const View& view, const PictureOptions& options,
 
 Result<Image> render(const TriangleMesh& mesh, const View& view, const PictureOptions& options,
                      const Context& context) {
-  const auto painter = Painter::create(mesh);
+  const auto painter = Painter::create(mesh, context);
   if (!painter) return painter.error();
   return painter->paint(view, options, context);
 }

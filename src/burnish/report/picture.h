@@ -33,8 +33,8 @@ struct PictureOptions {
 /// A mesh made ready to be painted from several views. Keeps a reference to the mesh.
 class Painter {
  public:
-  /// O(#T log #T). Errors: bad_geometry.
-  static Result<Painter> create(const TriangleMesh& mesh);
+  /// O(#T log #T). Errors: bad_geometry, cancelled.
+  static Result<Painter> create(const TriangleMesh& mesh, const Context& context = {});
   Painter(Painter&&) noexcept;
   Painter& operator=(Painter&&) noexcept;
   ~Painter();

@@ -198,6 +198,7 @@ Result<Plates> paint_plates(const Record& record, const ReportOptions& options,
   }
   result.phases = chosen_phases(record.phases.size(), options.pictured_phases);
   const std::vector<Shot> shots = shots_of(record, options);
+  if (context.cancelled()) return cancelled();
   for (const Shot& shot : shots) {
     Plate plate{shot.view.name, shot.caption, std::nullopt, {}};
     if (shot.paint == Paint::sigma || shot.paint == Paint::deviation) {
@@ -209,7 +210,7 @@ Result<Plates> paint_plates(const Record& record, const ReportOptions& options,
   double done = 0;
   for (const std::size_t index : result.phases) {
     const Phase& phase = record.phases[index];
-    const auto painter = Painter::create(phase.mesh);
+    const auto painter = Painter::create(phase.mesh, context);
     if (!painter) return Error{painter.error().code, painter.error().message, phase.name};
     for (std::size_t i = 0; i < shots.size(); ++i, ++done) {
       auto image = paint_shot(*painter, phase, shots[i], result.plates[i], options,

@@ -57,7 +57,7 @@ Result<bool> read_poses_beside(std::vector<FrameFile>& files) {
 Result<void> assign_in_order(const PoseList& list, const fs::path& path,
                              std::vector<FrameFile>& files) {
   if (list.poses.size() != files.size()) {
-    return Error{ErrorCode::bad_file,
+    return Error{ErrorCode::invalid_argument,
                  fmt::format("{} poses for {} depth images, as many as images are expected",
                              list.poses.size(), files.size()),
                  path.string()};

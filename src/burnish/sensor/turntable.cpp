@@ -184,7 +184,7 @@ Result<Simulation> simulate_turntable(const TriangleMesh& model, const Sensor& s
   Simulation done{.views = params.views};
   if (params.size > 0 && extent > 0) done.scale = params.size / extent;
   const TriangleMesh world = scaled(model, done.scale);
-  const auto camera = VirtualCamera::create(world, sensor);
+  const auto camera = VirtualCamera::create(world, sensor, context);
   if (!camera) return camera.error();
   const Sphere sphere = sphere_around(world);
   const auto distance = choose_distance(sphere, sensor, params.distance);

@@ -25,17 +25,20 @@ std::vector<Vec3f> unit_normals(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Result<VirtualCamera> VirtualCamera::create(const TriangleMesh& mesh, const Sensor& sensor) {
+Result<VirtualCamera> VirtualCamera::create(const TriangleMesh& mesh, const Sensor& sensor,
+                                            const Context& context) {
   if (auto sound = check(mesh); !sound) return sound.error();
   if (mesh.triangles.empty()) {
     return Error{ErrorCode::bad_geometry, "the mesh has no triangles to look at", {}};
   }
   if (auto sound = check(sensor.camera); !sound) return sound.error();
-  return VirtualCamera(mesh, sensor);
+  VirtualCamera camera(mesh, sensor, context);
+  if (context.cancelled()) return cancelled();
+  return camera;
 }
 
-VirtualCamera::VirtualCamera(const TriangleMesh& mesh, const Sensor& sensor)
-    : sensor_(sensor), origin_(mesh.frame.origin), normals_(unit_normals(mesh)), caster_(mesh) {}
+VirtualCamera::VirtualCamera(const TriangleMesh& mesh, const Sensor& sensor, const Context& context)
+    : sensor_(sensor), origin_(mesh.frame.origin), normals_(unit_normals(mesh)), caster_(mesh, context) {}
 
 Sight VirtualCamera::look(const RigidTransform& pose, std::uint32_t column,
                           std::uint32_t row) const {

@@ -23,8 +23,9 @@ namespace burnish {
 class VirtualCamera {
  public:
   /// Errors: bad_geometry where check(mesh) fails or there is no triangle, invalid_argument where
-  /// the camera is not sound. World coordinates are mesh.frame.origin + positions.
-  static Result<VirtualCamera> create(const TriangleMesh& mesh, const Sensor& sensor);
+  /// the camera is not sound, cancelled. World coordinates are mesh.frame.origin + positions.
+  static Result<VirtualCamera> create(const TriangleMesh& mesh, const Sensor& sensor,
+                                      const Context& context = {});
 
   /// Takes a picture. Errors: invalid_argument where noise is negative or the pose is no rotation,
   /// cancelled.
@@ -32,7 +33,7 @@ class VirtualCamera {
                              const Context& context = {}) const;
 
  private:
-  VirtualCamera(const TriangleMesh& mesh, const Sensor& sensor);
+  VirtualCamera(const TriangleMesh& mesh, const Sensor& sensor, const Context& context);
 
   Sight look(const RigidTransform& pose, std::uint32_t column, std::uint32_t row) const;
 

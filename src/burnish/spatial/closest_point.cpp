@@ -58,12 +58,13 @@ double ClosestPoint::Node::squared_distance(const Vec3d& query) const {
 /// Splits at the median of the longest side, so that the tree depends on the mesh alone.
 struct ClosestPoint::Builder {
   const TriangleMesh& mesh;
+  const Context& context;
   std::vector<Node>& nodes;
   std::vector<Vec3f> low, high;      ///< of each triangle
   std::vector<std::uint32_t> order;  ///< triangles, to be arranged leaf by leaf
 
-  Builder(const TriangleMesh& m, std::vector<Node>& n)
-      : mesh(m), nodes(n), order(m.triangles.size()) {
+  Builder(const TriangleMesh& m, const Context& c, std::vector<Node>& n)
+      : mesh(m), context(c), nodes(n), order(m.triangles.size()) {
     std::iota(order.begin(), order.end(), 0u);
     for (const auto& [a, b, c] : m.triangles) {
       const Vec3f &p = m.positions[a], &q = m.positions[b], &r = m.positions[c];
@@ -75,6 +76,8 @@ struct ClosestPoint::Builder {
   }
 
   void build(std::uint32_t begin, std::uint32_t end) {
+    constexpr std::uint32_t kCheckStop = 10000;
+    if (end - begin > kCheckStop && context.cancelled()) return;
     const std::size_t node = nodes.size();
     Node box{low[order[begin]], high[order[begin]], begin, end - begin};
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -102,10 +105,14 @@ struct ClosestPoint::Builder {
   }
 };
 
-ClosestPoint::ClosestPoint(const TriangleMesh& mesh) {
+ClosestPoint::ClosestPoint(const TriangleMesh& mesh, const Context& context) {
   if (mesh.triangles.empty()) return;
-  Builder builder(mesh, nodes_);
+  Builder builder(mesh, context, nodes_);
   builder.build(0, static_cast<std::uint32_t>(mesh.triangles.size()));
+  if (context.cancelled()) {
+    nodes_.clear();
+    return;
+  }
   corners_.reserve(mesh.triangles.size());
   for (const std::uint32_t t : builder.order) {
     const auto [a, b, c] = mesh.triangles[t];

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "burnish/base/context.h"
 #include "burnish/core/triangle_mesh.h"
 
 namespace burnish {
@@ -19,8 +20,9 @@ class ClosestPoint {
   };
 
   /// `mesh` must pass check(); degenerate triangles count as the segments or points that they are.
-  /// The mesh is not needed afterwards.
-  explicit ClosestPoint(const TriangleMesh& mesh);
+  /// The mesh is not needed afterwards. Where the context is cancelled it is left as of an empty
+  /// mesh.
+  explicit ClosestPoint(const TriangleMesh& mesh, const Context& context = {});
 
   /// Of triangles at the same distance the one with the smaller number. An empty mesh has no
   /// closest point: the triangle is ~0u and the distance infinite.

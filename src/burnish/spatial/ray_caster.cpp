@@ -43,6 +43,9 @@ const T* copy_to_embree(RTCGeometry geometry, RTCBufferType type, RTCFormat form
   return static_cast<const T*>(buffer);
 }
 
+/// Tells Embree whether to go on building.
+bool goes_on(void* context, double) { return !static_cast<const Context*>(context)->cancelled(); }
+
 RTCRayHit ray_to(double far, const Vec3d& origin, const Vec3d& direction) {
   RTCRayHit query{};
   query.ray.org_x = static_cast<float>(origin.x);
@@ -96,7 +99,8 @@ struct RayCaster::Scene {
   }
 };
 
-RayCaster::RayCaster(const TriangleMesh& mesh) : scene_(std::make_unique<Scene>()) {
+RayCaster::RayCaster(const TriangleMesh& mesh, const Context& context)
+    : scene_(std::make_unique<Scene>()) {
   if (mesh.triangles.empty()) return;
   scene_->device = rtcNewDevice(nullptr);
   if (!scene_->device) throw std::bad_alloc();
@@ -111,7 +115,13 @@ RayCaster::RayCaster(const TriangleMesh& mesh) : scene_(std::make_unique<Scene>(
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_->scene, geometry);
   rtcReleaseGeometry(geometry);
+  rtcSetSceneProgressMonitorFunction(scene_->scene, &goes_on, const_cast<Context*>(&context));
   rtcCommitScene(scene_->scene);
+  rtcSetSceneProgressMonitorFunction(scene_->scene, nullptr, nullptr);
+  if (context.cancelled()) {
+    scene_ = std::make_unique<Scene>();
+    return;
+  }
   if (rtcGetDeviceError(scene_->device) != RTC_ERROR_NONE) throw std::bad_alloc();
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "burnish/base/context.h"
 #include "burnish/core/triangle_mesh.h"
 
 namespace burnish {
@@ -17,8 +18,9 @@ namespace burnish {
 /// finds the triangle in single precision; distance and coordinates are then recomputed in double.
 class RayCaster {
  public:
-  /// `mesh` must pass check(mesh); one without triangles is never hit. Throws std::bad_alloc.
-  explicit RayCaster(const TriangleMesh& mesh);
+  /// `mesh` must pass check(mesh); one without triangles is never hit, and no more is one whose
+  /// building was cancelled. Throws std::bad_alloc.
+  explicit RayCaster(const TriangleMesh& mesh, const Context& context = {});
   ~RayCaster();
   RayCaster(RayCaster&&) noexcept;
   RayCaster& operator=(RayCaster&&) noexcept;

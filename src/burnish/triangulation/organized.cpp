@@ -23,7 +23,7 @@ class Squares {
   Squares(const PointCloud& cloud, const OrganizedParams& params)
       : positions_(cloud.positions),
         sigma_(cloud.attributes.sigma),
-        viewpoint_(cloud.viewpoint.value_or(Vec3d{})),
+        viewpoint_(cloud.viewpoint.value_or(Vec3d{}) - cloud.frame.origin),
         width_(cloud.grid->width),
         squared_jump_(params.max_jump * params.max_jump),
         squared_sine_(std::pow(std::sin(params.max_angle), 2)),
