@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "burnish/io/faces.h"
 #include "burnish/io/ply_scanner.h"
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -60,8 +58,8 @@ struct TextScanner {
     Cursor rest = cursor;
     const std::string word = shown(rest.word());
     if (word.empty()) return cursor.line_error(what + " has too few numbers");
-    return cursor.line_error(
-        fmt::format("'{}' in {} is one number too many or none of its type", word, what));
+    return cursor.line_error("'" + word + "' in " + what +
+                             " is one number too many or none of its type");
   }
 };
 

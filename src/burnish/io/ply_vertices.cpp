@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "burnish/io/ply_scanner.h"
 #include "burnish/io/vertex_columns.h"
 

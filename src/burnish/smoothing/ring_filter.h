@@ -15,7 +15,8 @@
 namespace burnish {
 
 /// A vertex and the neighbours that the boundary rule gives it, never none. They are brought
-/// together before anything is computed of them: what follows then runs over a few numbers in a row.
+/// together before anything is computed of them: what follows then runs over a few numbers in a
+/// row.
 struct RingView {
   Vec3d centre;
   std::span<const Vec3d> neighbours;
@@ -115,7 +116,7 @@ Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passe
   const bool small = static_cast<double>(rings.items().size()) * passes.iterations < kSmall;
   for (int pass = 0; pass < passes.iterations; ++pass) {
     Context share = context.part(static_cast<double>(pass) / passes.iterations,
-                                       (pass + 1.0) / passes.iterations);
+                                 (pass + 1.0) / passes.iterations);
     if (small) share.threads = 1;
     if (passes.in_place) next = positions;
     const bool complete = passes.in_place ? for_in_order(share, positions.size(), move)
