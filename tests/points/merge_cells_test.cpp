@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "burnish/points/unproject.h"
 #include "burnish/spatial/neighbour_grid.h"
@@ -160,6 +162,70 @@ TEST(MergeCells, DependsNeitherOnThreadsNorOnTheOrderOfClouds) {
   }
 }
 
+TEST(MergeCells, DoesNotDependOnTheOrderOfAnUnorganizedCloudsPoints) {
+  PointCloud cloud = plane_views(1)[0];
+  cloud.grid.reset();
+  cloud.viewpoint.reset();
+  std::vector<std::uint32_t> order(cloud.positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const PointCloud other = select(cloud, {order.rbegin(), order.rend()});
+  for (const MergeCellsParams& params : {MergeCellsParams{}, MergeCellsParams{.spacing = 0.02}}) {
+    const auto straight = merge_cells(std::vector<PointCloud>{cloud, cloud}, params);
+    const auto reversed = merge_cells(std::vector<PointCloud>{other, other}, params);
+    ASSERT_TRUE(straight && reversed);
+    EXPECT_EQ(straight->report.spacing, reversed->report.spacing);
+    EXPECT_EQ(straight->cloud, reversed->cloud);
+  }
+}
+
+TEST(MergeCells, StrayNormalsLeaveNoDents) {
+  std::vector<PointCloud> clouds = plane_views(6);
+  for (PointCloud& cloud : clouds) {
+    for (std::size_t i = 0; i < cloud.positions.size(); i += 97) {
+      cloud.attributes.normals[i] = normalized(Vec3f{1, 0, -0.8f});
+    }
+  }
+  const auto merged = merge_cells(clouds);
+  ASSERT_TRUE(merged);
+  for (const Vec3f& p : merged->cloud.positions) {
+    // Sigma is 2.4 mm; a window averages more than six of them: five standard deviations.
+    if (!inner(p)) continue;
+    EXPECT_NEAR(p.z, 1.2, 2.5e-3) << p.x << " " << p.y;
+  }
+}
+
+TEST(MergeCells, WhatOneFrameSawStaysWhereNoOtherSawItAndGoesWhereManyDid) {
+  std::vector<PointCloud> clouds = plane_views(20);
+  const auto right = [](const Vec3f& p) { return p.x > 0; };
+  constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 1; i < clouds.size(); ++i) {
+    for (Vec3f& p : clouds[i].positions) {
+      if (right(p)) p = {kMissing, kMissing, kMissing};
+    }
+  }
+  const std::size_t column = 40, row = 60;  // on the left; two pixels fly 5 cm before the plane
+  for (const std::size_t i : {row * 160 + column, row * 160 + column + 1}) {
+    clouds[0].positions[i] *= 1.15f / 1.2f;
+  }
+  const auto merged = merge_cells(clouds, {.spacing = 0.02});
+  ASSERT_TRUE(merged);
+  double shares[2] = {0, 0};  // of the points, left and right
+  for (const Vec3f& p : merged->cloud.positions) {
+    EXPECT_NEAR(p.z, 1.2, 0.02);
+    if (inner(p)) ++shares[right(p)];
+  }
+  EXPECT_NEAR(shares[0] / shares[1], 1, 0.1);
+  // No gap along the border: rows of points across it are never further apart than two spacings.
+  const NeighbourGrid grid(merged->cloud.positions);
+  std::vector<Neighbour> found;
+  for (float y = -0.3f; y < 0.3f; y += 0.01f) {
+    for (float x = -0.1f; x < 0.1f; x += 0.01f) {
+      grid.nearest({x, y, 1.2f}, 1, found);
+      EXPECT_LT(std::sqrt(found[0].squared_distance), 0.03) << x << " " << y;
+    }
+  }
+}
+
 TEST(MergeCells, TakesEmptyCloudsAndSinglePoints) {
   const std::vector<PointCloud> empty(2);
   const auto nothing = merge_cells(empty);
@@ -169,12 +235,12 @@ TEST(MergeCells, TakesEmptyCloudsAndSinglePoints) {
   PointCloud one;
   one.positions = {{1, 2, 3}};
   one.attributes.normals = {{0, 0, 1}};
-  const auto kept =
-      merge_cells(std::vector<PointCloud>{one}, {.spacing = 0.1, .min_observations = 1});
+  const auto kept = merge_cells(std::vector<PointCloud>{one}, {.spacing = 0.1});
   ASSERT_TRUE(kept);
   ASSERT_EQ(kept->cloud.positions.size(), 1u);
   EXPECT_LT(norm(kept->cloud.positions[0] - one.positions[0]), 1e-6f);
-  const auto left_out = merge_cells(std::vector<PointCloud>{one}, {.spacing = 0.1});
+  const auto left_out =
+      merge_cells(std::vector<PointCloud>{one}, {.spacing = 0.1, .min_observations = 2});
   ASSERT_TRUE(left_out);
   EXPECT_TRUE(left_out->cloud.positions.empty());
 

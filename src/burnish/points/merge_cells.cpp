@@ -44,25 +44,33 @@ Result<double> estimate_registration(CloudMeasurements& measurements, double spa
   return std::sqrt(std::max(0.0, scatter * scatter - sigma * sigma));
 }
 
-/// The cloud of the surfels `kept`: every cell gives what was measured in it to its owner.
-PointCloud cloud_of(const SurfaceCells& cells, const Surfels& kept,
-                    const std::vector<std::uint32_t>& owners, bool has_sigma,
-                    int min_observations) {
-  std::vector<double> information(kept.points.size());
-  std::vector<std::uint32_t> observations(kept.points.size());
-  for (std::size_t i = 0; i < owners.size(); ++i) {
-    if (owners[i] == kNoSurfel) continue;
-    information[owners[i]] += cells.cells[i].information;
-    observations[owners[i]] += cells.cells[i].count;
+/// What the measurements of each surfel's patch add up to.
+struct Patches {
+  std::vector<double> information;
+  std::vector<std::uint32_t> observations;
+
+  Patches(const SurfaceCells& cells, const std::vector<std::uint32_t>& owners, std::size_t count)
+      : information(count), observations(count) {
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+      if (owners[i] == kNoSurfel) continue;
+      information[owners[i]] += cells.cells[i].information;
+      observations[owners[i]] += cells.cells[i].count;
+    }
   }
+};
+
+/// The cloud of the surfels that enough was observed of.
+PointCloud cloud_of(const Surfels& surfels, const Patches& patches,
+                    const std::vector<std::uint8_t>& is_sparse, bool has_sigma,
+                    std::uint32_t min_observations) {
   PointCloud cloud;
-  for (std::size_t i = 0; i < kept.points.size(); ++i) {
-    if (observations[i] < static_cast<std::uint32_t>(min_observations)) continue;
-    cloud.positions.push_back(kept.points[i].position);
-    cloud.attributes.normals.push_back(kept.points[i].normal);
-    cloud.attributes.observations.push_back(observations[i]);
+  for (std::size_t i = 0; i < surfels.points.size(); ++i) {
+    if (is_sparse[i] || patches.observations[i] < min_observations) continue;
+    cloud.positions.push_back(surfels.points[i].position);
+    cloud.attributes.normals.push_back(surfels.points[i].normal);
+    cloud.attributes.observations.push_back(patches.observations[i]);
     if (!has_sigma) continue;
-    cloud.attributes.sigma.push_back(static_cast<float>(1 / std::sqrt(information[i])));
+    cloud.attributes.sigma.push_back(static_cast<float>(1 / std::sqrt(patches.information[i])));
   }
   cloud.attributes.origin.assign(cloud.positions.size(), Origin::seen);
   return cloud;
@@ -136,11 +144,16 @@ Result<Merging> merge_cells(std::span<const PointCloud> clouds, const MergeCells
   if (!thin_loosely(surfels, context.part(0.5, 0.6)) ||
       !slide(*cells, kRounds, surfels, context.part(0.6, 0.8)) ||
       !thin(surfels, context.part(0.8, 0.9)) ||
-      !find_owners(*cells, surfels, owners, context.part(0.9, 1))) {
+      !find_owners(*cells, surfels, owners, context.part(0.9, 0.98))) {
     return cancelled();
   }
-  merging.cloud =
-      cloud_of(*cells, surfels, owners, measurements.has_sigma(), params.min_observations);
+  const Patches patches(*cells, owners, surfels.points.size());
+  std::vector<std::uint8_t> is_sparse;
+  if (!find_sparse(surfels, patches.observations, is_sparse, context.part(0.98, 1))) {
+    return cancelled();
+  }
+  merging.cloud = cloud_of(surfels, patches, is_sparse, measurements.has_sigma(),
+                           static_cast<std::uint32_t>(params.min_observations));
   merging.cloud.frame = clouds[0].frame;
   merging.report.points_out = merging.cloud.positions.size();
   return merging;

@@ -12,7 +12,7 @@ struct MergeCellsParams {
   double spacing = 0;        ///< m; 0: twice the median distance between neighbouring rays
   double registration = 0;   ///< how far poses are off, one standard deviation, m; 0: estimated
   double correlation = 0.5;  ///< of the noise of neighbouring pixels of one image
-  int min_observations = 3;  ///< points that fewer measurements support are left out
+  int min_observations = 1;  ///< points that fewer measurements support are left out
 
   static const Schema<MergeCellsParams>& schema();
 };
@@ -34,6 +34,8 @@ struct MergeCellsParams {
 ///    stays where no other saw it.
 /// 4. Of the others stay, in the order of the columns, those that no kept one is nearer to than the
 ///    spacing. Every cell gives its measurements to the nearest: observations is their number.
+///    Points with less than a quarter of the observations of most within six spacings are left out
+///    too.
 ///
 /// sigma = 1 / sqrt(sum of information), an upper estimate, as windows are wider than patches.
 /// n pixels of one image in a patch share `correlation` of their noise, so each of them adds

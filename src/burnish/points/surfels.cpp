@@ -9,18 +9,20 @@
 namespace burnish {
 namespace {
 
-constexpr double kAgree = 0.5;     // least cosine between normals of one surface
-constexpr double kAlong = 0.3;     // least component along the axis of a field to look into
-constexpr double kUpright = 0.4;   // least component along its column's axis of a surfel's normal
-constexpr double kWindow = 1.5;    // radius of a window, spacings
-constexpr double kDeep = 3;        // half its depth, standard deviations
-constexpr double kSharp = 1. / 3;  // sigma of a point that is fine enough, spacings
-constexpr double kWidest = 4;      // largest growth of the spacing
-constexpr double kWeak = 1. / 3;   // support of a layer that yields to one beside it
-constexpr double kFaint = 1. / 4;  // support of a point that yields to most around it
-constexpr double kAround = 3;      // how far around is, spacings
-constexpr double kApart = 0.5;     // least distance across creases, spacings
-constexpr double kLoose = 0.35;    // distance between candidates, spacings
+constexpr double kAgree = 0.5;      // least cosine between normals of one surface
+constexpr double kAlong = 0.3;      // least component along the axis of a field to look into
+constexpr double kUpright = 0.4;    // least component along its column's axis of a surfel's normal
+constexpr double kWindow = 1.5;     // radius of a window, spacings
+constexpr double kDeep = 3;         // half its depth, standard deviations
+constexpr double kSharp = 1. / 3;   // sigma of a point that is fine enough, spacings
+constexpr double kWidest = 4;       // largest growth of the spacing
+constexpr double kWeak = 1. / 3;    // support of a layer that yields to one beside it
+constexpr double kFaint = 1. / 4;   // support of a point that yields to most around it
+constexpr double kSparse = 1. / 4;  // observations of a point that yields to most around it
+constexpr double kMost = 0.6;       // more than the half that is another side of a sheet
+constexpr double kAround = 3;       // how far around is, spacings
+constexpr double kApart = 0.5;      // least distance across creases, spacings
+constexpr double kLoose = 0.35;     // distance between candidates, spacings
 
 bool agree(const Vec3d& n, const Vec3f& m) {
   return dot(n, Vec3d(m)) > kAgree;
@@ -135,27 +137,29 @@ bool weak(const Surfels& surfels, std::size_t i) {
   return found;
 }
 
-/// Whether most of what lies around surfel i, and does not face the other way, has far more
-/// support.
-bool faint(const Surfels& surfels, std::size_t i) {
-  const Surfel& surfel = surfels.points[i];
-  const auto density = [](const Surfel& s) {
-    return static_cast<double>(s.information) / (static_cast<double>(s.spacing) * s.spacing);
-  };
-  const double limit = density(surfel) / kFaint;
-  const double radius = kAround * surfel.spacing;
-  const Vec3d p(surfel.position), n(surfel.normal);
-  int better = 0, all = 0;
-  surfels.index.visit(p, n, radius, -1, [&](std::uint32_t j, std::size_t) {
-    const Surfel& other = surfels.points[j];
-    if (dot(n, Vec3d(other.normal)) <= -kAgree ||
-        squared_norm(Vec3d(other.position) - p) > radius * radius) {
-      return;
-    }
-    ++all;
-    better += density(other) > limit;
+/// Whether most surfels within `reach` spacings of surfel i, whatever way they face, have a support
+/// above `limit`.
+template <class Support>
+bool outdone(const Surfels& surfels, std::size_t i, double reach, double limit,
+             const Support& support) {
+  const double radius = reach * surfels.points[i].spacing;
+  const Vec3d p(surfels.points[i].position);
+  double better = 0, all = 0;
+  surfels.index.visit(p, {}, radius, -1, [&](std::uint32_t j, std::size_t) {
+    if (squared_norm(Vec3d(surfels.points[j].position) - p) > radius * radius) return;
+    better += support(j) > limit;
+    all += 1;
   });
-  return 2 * better > all;
+  return better > kMost * all;
+}
+
+/// Whether the window of surfel i holds far less, for its size, than those of most around it.
+bool faint(const Surfels& surfels, std::size_t i) {
+  const auto density = [&](std::size_t j) {
+    const double spacing = surfels.points[j].spacing;
+    return surfels.points[j].information / (spacing * spacing);
+  };
+  return outdone(surfels, i, kAround, density(i) / kFaint, density);
 }
 
 /// Whether a kept surfel is too near to surfel i: nearer than `share` of the spacing on the same
@@ -291,6 +295,17 @@ bool find_owners(const SurfaceCells& cells, const Surfels& surfels,
   }
   context.progress(1);
   return true;
+}
+
+bool find_sparse(const Surfels& surfels, const std::vector<std::uint32_t>& observations,
+                 std::vector<std::uint8_t>& is_sparse, const Context& context) {
+  is_sparse.assign(surfels.points.size(), 0);
+  return parallel_for(context, is_sparse.size(), [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      is_sparse[i] = outdone(surfels, i, 2 * kAround, observations[i] / kSparse,
+                             [&](std::size_t j) { return observations[j]; });
+    }
+  });
 }
 
 }  // namespace burnish

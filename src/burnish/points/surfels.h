@@ -58,4 +58,10 @@ void grow(Surfels& surfels);
 [[nodiscard]] bool find_owners(const SurfaceCells& cells, const Surfels& surfels,
                                std::vector<std::uint32_t>& owners, const Context& context);
 
+/// Marks surfels with less than a quarter of the observations that most within six spacings have.
+/// False where cancelled.
+[[nodiscard]] bool find_sparse(const Surfels& surfels,
+                               const std::vector<std::uint32_t>& observations,
+                               std::vector<std::uint8_t>& is_sparse, const Context& context);
+
 }  // namespace burnish

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
+#include "burnish/base/parallel.h"
 #include "burnish/core/topology.h"
 #include "burnish/io/png.h"
 #include "burnish/report/histogram.h"
@@ -142,21 +144,47 @@ void write_scale(HtmlWriter& html, const ColorScale& scale) {
   html.close().element("span", limit_text(scale, scale.high) + " and more").close();
 }
 
-Result<void> write_plate(HtmlWriter& html, const Record& record, const Plates& plates,
-                         const Plate& plate) {
+/// The pictures of all plates as PNG files, plate after plate.
+Result<std::vector<std::string>> encoded_pictures(const Plates& plates, const Context& context) {
+  std::vector<const Image*> images;
+  for (const Plate& plate : plates.plates) {
+    for (const Image& image : plate.pictures) images.push_back(&image);
+  }
+  std::vector<std::string> files(images.size());
+  std::vector<Result<void>> outcomes(images.size());
+  const auto encode = [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const Image& image = *images[i];
+      if (image.pixels.empty()) continue;
+      auto png = encode_png(image.width, image.height, image.pixels);
+      if (png) {
+        files[i] = std::move(*png);
+      } else {
+        outcomes[i] = png.error();
+      }
+    }
+  };
+  if (!parallel_for(context, images.size(), encode, 1)) return cancelled();
+  for (const Result<void>& outcome : outcomes) {
+    if (!outcome) return outcome.error();
+  }
+  return files;
+}
+
+/// `files`: the plate's pictures as PNG files, empty where there is none.
+void write_plate(HtmlWriter& html, const Record& record, const Plates& plates, const Plate& plate,
+                 std::span<const std::string> files) {
   html.open("section", {{"class", "plate"}, {"data-name", plate.name}});
   html.open("h3").text(words_of(plate.name) + " ").element("span", plate.caption).close();
   if (plate.scale) write_scale(html, *plate.scale);
   html.open("div", {{"class", "row"}});
   for (std::size_t i = 0; i < plate.pictures.size(); ++i) {
     const Image& image = plate.pictures[i];
-    if (image.pixels.empty()) continue;
-    const auto png = encode_png(image.width, image.height, image.pixels);
-    if (!png) return png.error();
+    if (files[i].empty()) continue;
     const std::string& phase = record.phases[plates.phases[i]].name;
     const std::string what = phase + ", " + plate.name;
     html.open("figure");
-    html.empty("img", {{"src", "data:image/png;base64," + base64(*png)},
+    html.empty("img", {{"src", "data:image/png;base64," + base64(files[i])},
                        {"alt", plate.caption.empty() ? what : what + ", " + plate.caption},
                        {"data-phase", phase},
                        {"width", std::to_string(image.width)},
@@ -164,18 +192,19 @@ Result<void> write_plate(HtmlWriter& html, const Record& record, const Plates& p
     html.element("figcaption", phase).close();
   }
   html.close().close();
-  return {};
 }
 
 Result<void> write_plates(HtmlWriter& html, const Record& record, const Plates& plates,
                           const Context& context) {
   if (plates.plates.empty()) return {};
+  const auto files = encoded_pictures(plates, context);
+  if (!files) return files.error();
   html.open("section").element("h2", "Pictures");
   write_color_legend(html, record);
-  for (std::size_t i = 0; i < plates.plates.size(); ++i) {
-    if (context.cancelled()) return cancelled();
-    if (auto done = write_plate(html, record, plates, plates.plates[i]); !done) return done;
-    context.progress(static_cast<double>(i + 1) / static_cast<double>(plates.plates.size()));
+  std::span<const std::string> left(*files);
+  for (const Plate& plate : plates.plates) {
+    write_plate(html, record, plates, plate, left.first(plate.pictures.size()));
+    left = left.subspan(plate.pictures.size());
   }
   html.close();
   return {};

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "burnish/base/parallel.h"
 #include "burnish/report/shade.h"
@@ -42,12 +43,17 @@ struct Sample {
   Vec3d point, ray;
 };
 
+/// Of a vector in the image. Pixels neither overflow nor vanish when squared, as std::hypot fears.
+double length_of(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+
 /// Distance in the image between p and the segment from a to b, pixels.
 double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
   const double dx = b.x - a.x, dy = b.y - a.y, length = dx * dx + dy * dy;
   const double along = ((p.x - a.x) * dx + (p.y - a.y) * dy) / (length > 0 ? length : 1);
   const double t = std::clamp(along, 0.0, 1.0);
-  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+  return length_of(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
 /// How much of a sample an edge of the triangle covers. Edges of triangles that are only a few
@@ -63,7 +69,7 @@ double edge_cover(const Pinhole& camera, const std::array<Vec3d, 3>& corners, co
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3d &a = seen[k], &b = seen[(k + 1) % 3];
     nearest = std::min(nearest, distance_to_segment(p, a, b));
-    longest = std::max(longest, std::hypot(b.x - a.x, b.y - a.y));
+    longest = std::max(longest, length_of(b.x - a.x, b.y - a.y));
   }
   const double twice_area = std::abs((seen[1].x - seen[0].x) * (seen[2].y - seen[0].y) -
                                      (seen[1].y - seen[0].y) * (seen[2].x - seen[0].x));
@@ -81,10 +87,15 @@ struct Painter::Scene {
   double radius = 1;
   TriangleMesh unit;
   std::vector<Vec3f> normals;  ///< of the vertices
+  std::vector<Vec3d> faces;    ///< unit normals of the triangles
   RayCaster caster;
 
   explicit Scene(const TriangleMesh& source)
-      : mesh(source), unit(into_unit_ball()), normals(vertex_normals(unit)), caster(unit) {}
+      : mesh(source), unit(into_unit_ball()), normals(vertex_normals(unit)), caster(unit) {
+    faces.reserve(unit.triangles.size());
+    for (std::size_t t = 0; t < unit.triangles.size(); ++t)
+      faces.push_back(normalized(area_vector(unit, t)));
+  }
 
   TriangleMesh into_unit_ball() {
     TriangleMesh result;
@@ -121,22 +132,23 @@ struct Painter::Scene {
     return camera;
   }
 
-  Light look(const Pinhole& camera, const PictureOptions& options, double column,
-             double row) const {
+  /// The light that comes from a place in the image; none where there is only background.
+  std::optional<Light> look(const Pinhole& camera, const PictureOptions& options, double column,
+                            double row) const {
     const Vec3d ray = camera.ray(column, row);
     // Start where the ball begins: a far away eye would cost digits.
     const Vec3d eye = camera.T_scene_camera.translation;
     const double lead = std::max(0.0, -dot(eye, ray) - 1.01);
     const Vec3d start = eye + lead * ray;
     const auto hit = caster.cast(start, ray);
-    if (!hit) return linear(options.background);
+    if (!hit) return std::nullopt;
     const double u = std::clamp(hit->u, 0.0, 1.0), v = std::clamp(hit->v, 0.0, 1.0 - u);
     return paint(camera, options,
                  {hit->triangle, {1 - u - v, u, v}, start + hit->distance * ray, ray});
   }
 
   Light paint(const Pinhole& camera, const PictureOptions& options, const Sample& sample) const {
-    const Vec3d face = normalized(area_vector(unit, sample.triangle));
+    const Vec3d& face = faces[sample.triangle];
     const bool back = dot(face, sample.ray) > 0;
     Vec3d normal = face;
     if (options.smooth_normals) {
@@ -225,16 +237,21 @@ Result<Image> Painter::paint(const View& view, const PictureOptions& options,
 
   const Pinhole camera = scene_->pinhole(view, options);
   Image image(options.width, options.height, options.background);
+  const Light background = linear(options.background);
   const bool complete = parallel_for(
       context, options.height,
       [&](IndexRange rows) {
         for (std::size_t row = rows.begin; row < rows.end; ++row) {
           for (std::uint32_t column = 0; column < options.width; ++column) {
             Light sum{};
+            bool surface = false;
             for (const auto& [dx, dy] : kSamples) {
-              sum += scene_->look(camera, options, column + dx, static_cast<double>(row) + dy);
+              const auto light =
+                  scene_->look(camera, options, column + dx, static_cast<double>(row) + dy);
+              sum += light.value_or(background);
+              surface = surface || light;
             }
-            image.at(column, static_cast<std::uint32_t>(row)) = srgb(sum / 4.0);
+            if (surface) image.at(column, static_cast<std::uint32_t>(row)) = srgb(sum / 4.0);
           }
         }
       },

@@ -7,15 +7,43 @@
 namespace burnish {
 namespace {
 
-double decode(std::uint8_t code) {
+/// The light of a code between 0 and 255.
+double decode(double code) {
   const double c = code / 255.0;
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-std::uint8_t encode(double light) {
-  const double c = std::clamp(light, 0.0, 1.0);
-  const double code = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * code));
+/// sRGB both ways without a power for every sample of a picture.
+struct Codes {
+  static constexpr std::size_t kParts = 4096;  ///< of [0, 1]; none holds more than two limits
+
+  std::array<double, 256> light;   ///< of each code
+  std::array<double, 256> limits;  ///< limits[c]: from this light on the nearest code exceeds c
+  std::array<std::uint8_t, kParts + 1> first;  ///< the code at the beginning of each part
+
+  Codes() {
+    for (std::size_t code = 0; code < 256; ++code) {
+      light[code] = decode(static_cast<double>(code));
+      limits[code] = code < 255 ? decode(static_cast<double>(code) + 0.5) : 2;
+    }
+    std::uint8_t code = 0;
+    for (std::size_t part = 0; part <= kParts; ++part) {
+      while (static_cast<double>(part) / kParts >= limits[code]) ++code;
+      first[part] = code;
+    }
+  }
+
+  std::uint8_t encode(double value) const {
+    const double c = std::clamp(value, 0.0, 1.0);
+    std::uint8_t code = first[static_cast<std::size_t>(c * kParts)];
+    while (c >= limits[code]) ++code;
+    return code;
+  }
+};
+
+const Codes& codes() {
+  static const Codes table;
+  return table;
 }
 
 /// Linear sRGB of a colour in OKLab (Ottosson 2020).
@@ -32,11 +60,13 @@ Light from_oklab(double lightness, double a, double b) {
 }  // namespace
 
 Light linear(const Color& color) {
-  return {decode(color[0]), decode(color[1]), decode(color[2])};
+  const auto& light = codes().light;
+  return {light[color[0]], light[color[1]], light[color[2]]};
 }
 
 Color srgb(const Light& light) {
-  return {encode(light.x), encode(light.y), encode(light.z), 255};
+  const Codes& table = codes();
+  return {table.encode(light.x), table.encode(light.y), table.encode(light.z), 255};
 }
 
 Light lighting(const Vec3d& normal, const Vec3d& ray) {

@@ -14,10 +14,10 @@ namespace burnish {
 
 /// What the caller knows of the frames; what is left open is looked for beside them.
 struct FrameOptions {
-  std::filesystem::path poses;   ///< a pose list (sensor/pose_list.h)
-  std::optional<Camera> camera;  ///< width and height 0: those of the frames
-  std::string sensor;            ///< a name for find_sensor: noise, range, camera of last resort
-  std::optional<double> depth_scale;  ///< metres per unit of the images
+  std::filesystem::path poses{};   ///< a pose list (sensor/pose_list.h)
+  std::optional<Camera> camera{};  ///< width and height 0: those of the frames
+  std::string sensor{};            ///< a name for find_sensor: noise, range, camera of last resort
+  std::optional<double> depth_scale{};  ///< metres per unit of the images
 };
 
 /// A depth image on disk and what is known of it.

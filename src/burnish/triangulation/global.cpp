@@ -17,6 +17,10 @@
 namespace burnish {
 namespace {
 
+/// So many triangles or points are dealt with, in some milliseconds, between two looks at whether
+/// the run was cancelled.
+constexpr std::size_t kBetweenLooks = 8192;
+
 /// Sorts what not all fans agree on to the order in which it is tried.
 void sort_doubtful(std::vector<Candidate>& doubtful) {
   std::sort(doubtful.begin(), doubtful.end(), [](const Candidate& a, const Candidate& b) {
@@ -27,7 +31,9 @@ void sort_doubtful(std::vector<Candidate>& doubtful) {
 
 /// Three fans that agree on triangles never contradict each other: in a vertex's fan every
 /// neighbour has one successor. The others are taken where they fit.
-void insert_candidates(const std::vector<Candidate>& candidates, ManifoldSurface& surface) {
+/// Returns false where cancelled.
+bool insert_candidates(const std::vector<Candidate>& candidates, const Context& context,
+                       ManifoldSurface& surface) {
   std::vector<Candidate> doubtful;
   for (const Candidate& candidate : candidates) {
     if (candidate.votes == 3) {
@@ -36,16 +42,21 @@ void insert_candidates(const std::vector<Candidate>& candidates, ManifoldSurface
       doubtful.push_back(candidate);
     }
   }
+  if (context.cancelled()) return false;
   sort_doubtful(doubtful);
-  for (const Candidate& candidate : doubtful) {
-    if (!surface.overlaps(candidate.triangle)) surface.add_if_manifold(candidate.triangle);
+  for (std::size_t i = 0; i < doubtful.size(); ++i) {
+    if (i % kBetweenLooks == 0 && context.cancelled()) return false;
+    const Triangle& t = doubtful[i].triangle;
+    if (!surface.overlaps(t)) surface.add_if_manifold(t);
   }
+  return true;
 }
 
-/// Leaves every vertex one fan, its largest.
-void separate_pinched_vertices(ManifoldSurface& surface) {
+/// Leaves every vertex one fan, its largest. Returns false where cancelled.
+bool separate_pinched_vertices(ManifoldSurface& surface, const Context& context) {
   std::vector<std::vector<std::uint32_t>> paths;
   for (bool changed = true; changed;) {
+    if (context.cancelled()) return false;
     changed = false;
     for (const ManifoldSurface::Corner& corner : surface.corners()) {
       surface.paths(corner.vertex, paths);
@@ -55,6 +66,7 @@ void separate_pinched_vertices(ManifoldSurface& surface) {
       }
     }
   }
+  return true;
 }
 
 }  // namespace
@@ -111,13 +123,16 @@ Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalPa
   if (context.cancelled()) return cancelled();
   context.stage("inserting triangles");
   ManifoldSurface surface(ordered.positions, normals);
-  insert_candidates(candidates, surface);
-  if (context.cancelled()) return cancelled();
+  if (!insert_candidates(candidates, context, surface)) return cancelled();
+  context.progress(0.85);
   context.stage("closing holes");
   const auto hole_edges = static_cast<std::size_t>(params.hole_edges);
-  std::size_t invented = close_small_holes(surface, ordered.positions, normals, hole_edges);
-  separate_pinched_vertices(surface);
-  invented += close_small_holes(surface, ordered.positions, normals, hole_edges);
+  std::size_t invented = 0;
+  if (!close_small_holes(surface, ordered.positions, normals, hole_edges, context, invented) ||
+      !separate_pinched_vertices(surface, context) ||
+      !close_small_holes(surface, ordered.positions, normals, hole_edges, context, invented)) {
+    return cancelled();
+  }
 
   if (context.cancelled()) return cancelled();
   std::vector<Triangle> triangles = surface.triangles();

@@ -103,17 +103,19 @@ class LoopTriangulation {
 
 }  // namespace
 
-std::size_t close_small_holes(ManifoldSurface& surface, std::span<const Vec3f> positions,
-                              std::span<const Vec3f> normals, std::size_t max_edges) {
-  std::size_t added = 0;
+bool close_small_holes(ManifoldSurface& surface, std::span<const Vec3f> positions,
+                       std::span<const Vec3f> normals, std::size_t max_edges,
+                       const Context& context, std::size_t& added) {
+  if (context.cancelled()) return false;
   LoopTriangulation triangulation(surface, positions, normals);
   std::vector<Triangle> triangles;
   for (const Loop& loop : small_loops(surface, max_edges)) {
+    if (context.cancelled()) return false;
     triangles.clear();
     triangulation.append(loop, triangles);
     for (const Triangle& t : triangles) added += surface.add_if_manifold(t);
   }
-  return added;
+  return true;
 }
 
 }  // namespace burnish
