@@ -51,7 +51,8 @@ int run(int count, char** words) {
     const std::vector<std::string> unknown = app.remaining();
     if (app.get_subcommands().empty() && !unknown.empty()) {
       return fail({ErrorCode::invalid_argument,
-                   fmt::format("'{}' is no verb; burnish --help lists them", unknown.front()), {}});
+                   fmt::format("'{}' is no verb; burnish --help lists them", unknown.front()),
+                   {}});
     }
     app.exit(error);
     return exit_status(ErrorCode::invalid_argument);

@@ -113,6 +113,50 @@ TEST(Program, RefusesAnOutputThatCannotBeBeforeItWorks) {
   }
 }
 
+TEST(Program, NamesTheVerbThatItDoesNotKnow) {
+  const Outcome outcome = burnish({"smoth"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("'smoth'"), std::string::npos) << outcome.err;
+}
+
+TEST(Program, NoticesAFullStandardOutput) {
+  const Outcome outcome = test::run_program({"/bin/sh", "-c", BURNISH_PROGRAM " list > /dev/full"});
+  EXPECT_EQ(outcome.status, 7) << outcome.err;
+}
+
+TEST(Program, RefusesAnEmptyResult) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "sphere.ply", make_sphere()));
+  const std::string in = folder / "sphere.ply", out = folder / "out.ply";
+  EXPECT_EQ(burnish({"reconstruct", in, "-o", out, "--crop", "box:5,5,5,6,6,6"}).status, 6);
+  write_text(folder / "two.xyz", "0 0 0\n1 0 0\n");
+  EXPECT_EQ(burnish({"triangulate", folder / "two.xyz", "-o", out}).status, 6);
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Program, RefusesOptionsThatMeanNothing) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "sphere.ply", make_sphere()));
+  const std::string in = folder / "sphere.ply", out = folder / "out.ply";
+  EXPECT_EQ(burnish({"reconstruct", in, "-o", out, "--merge", "none"}).status, 2);
+  EXPECT_EQ(burnish({"reconstruct", in, "-o", out, "--triangulate", "none"}).status, 2);
+  EXPECT_EQ(burnish({"reconstruct", in, "-o", out, "--camera", "525,525,320,240"}).status, 2);
+  EXPECT_EQ(burnish({"reconstruct", in, "-o", out, "--depth_scale", "1mm"}).status, 2);
+  EXPECT_EQ(burnish({"reconstruct", in, "-o", out, "--depth_scale", "0"}).status, 2);
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Program, AViewpointThatIsNoPlaceMakesAFileBad) {
+  const TemporaryFolder folder;
+  write_text(folder / "nan.pcd",
+             "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\n"
+             "HEIGHT 2\nVIEWPOINT nan 0 0 1 0 0 0\nPOINTS 4\nDATA ascii\n"
+             "0 0 1\n1 0 1\n0 1 1\n1 1 1\n");
+  const Outcome outcome = burnish({"convert", folder / "nan.pcd", folder / "out.ply"});
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_NE(outcome.err.find("VIEWPOINT"), std::string::npos) << outcome.err;
+}
+
 TEST(Program, QuietPrintsNothing) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "box.ply", make_box()));
@@ -161,6 +205,15 @@ TEST(Program, InterruptStopsWithinASecondAndLeavesNoFile) {
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_LT(outcome.seconds, 2.0);
   EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"grid.ply"});
+}
+
+TEST(Program, InterruptWhileComparingLargeMeshesStops) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "grid.ply", make_grid(900, 900, 0.001)));
+  const std::string grid = folder / "grid.ply";
+  const Outcome outcome = burnish({"measure", grid, "--truth", grid}, 1500);
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_LT(outcome.seconds, 3.0);
 }
 
 TEST(Program, InterruptWhileSimulatingLeavesNoHalfFrame) {

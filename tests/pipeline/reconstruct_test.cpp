@@ -6,6 +6,7 @@
 #include "burnish/io/atomic_writer.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/sensor/camera_file.h"
+#include "burnish/sensor/pose_list.h"
 #include "burnish/sensor/turntable.h"
 #include "burnish/shapes/shapes.h"
 #include "support/test_data.h"
@@ -93,6 +94,28 @@ TEST(Reconstruct, CropsInWorldCoordinates) {
     // Merging averages points inside of the box; it cannot leave it.
     EXPECT_GE(p.z, -1e-6f);
   }
+}
+
+/// Coordinates of a map: float would have steps of half a metre there.
+TEST(Reconstruct, IsAsGoodFarFromTheWorldsOrigin) {
+  const test::TemporaryFolder folder;
+  const auto sensor = find_sensor("kinect_v1");
+  ASSERT_TRUE(simulate_turntable(make_sphere(0.15, 4), *sensor, {.views = 3}, folder / "scan"));
+  const auto near = made_from({folder / "scan"});
+  expect_sound(near, 500);
+  for (const char* name : {"frame-000000", "frame-000001", "frame-000002"}) {
+    const fs::path file = folder / "scan" / (std::string(name) + ".pose.txt");
+    auto pose = read_pose_matrix(file);
+    ASSERT_TRUE(pose);
+    pose->translation += Vec3d{500000, 4649776, 0};
+    ASSERT_TRUE(write_file(file, pose_matrix_text(*pose)));
+  }
+  const auto far = made_from({folder / "scan"});
+  expect_sound(far, 500);
+  // Rounding differs, so that single points may come out otherwise.
+  EXPECT_NEAR(static_cast<double>(far->mesh.triangles.size()),
+              static_cast<double>(near->mesh.triangles.size()), 0.01 * near->mesh.triangles.size());
+  EXPECT_NEAR(far->mesh.frame.origin.y, 4649776, 10);
 }
 
 TEST(Reconstruct, CancelsWithoutAResult) {

@@ -22,7 +22,8 @@ struct Options {
 const std::vector<std::string> kNone{"none"};
 
 Error cannot_leave_out(std::string_view option) {
-  return {ErrorCode::invalid_argument, fmt::format("{} is a step that cannot be left out", option), {}};
+  return {
+      ErrorCode::invalid_argument, fmt::format("{} is a step that cannot be left out", option), {}};
 }
 
 /// "none" alone leaves a step out; nothing leaves it at its default.

@@ -14,7 +14,8 @@ Result<void> check_lengths(const Attributes& attributes, std::size_t count) {
   const auto check = [&](std::string_view name, std::size_t size) -> Result<void> {
     if (size == 0 || size == count) return {};
     return Error{ErrorCode::bad_geometry,
-                 fmt::format("attribute '{}' has {} values for {} vertices", name, size, count), {}};
+                 fmt::format("attribute '{}' has {} values for {} vertices", name, size, count),
+                 {}};
   };
   if (auto ok = check("normals", attributes.normals.size()); !ok) return ok;
   if (auto ok = check("colors", attributes.colors.size()); !ok) return ok;
@@ -28,9 +29,9 @@ Result<void> check_lengths(const Attributes& attributes, std::size_t count) {
 }
 
 Attributes gather(const Attributes& attributes, std::span<const std::uint32_t> kept) {
-  Attributes result{gather(attributes.normals, kept),      gather(attributes.colors, kept),
-                    gather(attributes.sigma, kept),        gather(attributes.observations, kept),
-                    gather(attributes.origin, kept),       {}};
+  Attributes result{gather(attributes.normals, kept), gather(attributes.colors, kept),
+                    gather(attributes.sigma, kept),   gather(attributes.observations, kept),
+                    gather(attributes.origin, kept),  {}};
   for (const Channel& channel : attributes.channels) {
     result.channels.push_back(
         {channel.name, std::visit([&](const auto& v) -> Channel::Values { return gather(v, kept); },

@@ -20,10 +20,10 @@ enum class Origin : std::uint8_t { seen = 0, interpolated = 1, invented = 2 };
 
 /// One number per vertex under a name of the user's, in the type in which the file held it.
 struct Channel {
-  using Values = std::variant<std::vector<std::int8_t>, std::vector<std::uint8_t>,
-                              std::vector<std::int16_t>, std::vector<std::uint16_t>,
-                              std::vector<std::int32_t>, std::vector<std::uint32_t>,
-                              std::vector<float>, std::vector<double>>;
+  using Values =
+      std::variant<std::vector<std::int8_t>, std::vector<std::uint8_t>, std::vector<std::int16_t>,
+                   std::vector<std::uint16_t>, std::vector<std::int32_t>,
+                   std::vector<std::uint32_t>, std::vector<float>, std::vector<double>>;
   std::string name;
   Values values;
 
@@ -34,17 +34,18 @@ struct Channel {
 /// What is known of each vertex besides its position; each array is empty or as long as there are
 /// vertices.
 struct Attributes {
-  std::vector<Vec3f> normals;                ///< unit length, pointing out of the surface; 0 = unknown
+  std::vector<Vec3f> normals;  ///< unit length, pointing out of the surface; 0 = unknown
   std::vector<Color> colors;
-  std::vector<float> sigma;                  ///< one standard deviation of the position, m
-  std::vector<std::uint32_t> observations;   ///< how many measurements the vertex is the mean of
+  std::vector<float> sigma;                 ///< one standard deviation of the position, m
+  std::vector<std::uint32_t> observations;  ///< how many measurements the vertex is the mean of
   std::vector<Origin> origin;
   std::vector<Channel> channels;
 
   friend bool operator==(const Attributes&, const Attributes&) = default;
 };
 
-/// Whether every array of `attributes` is empty or `count` long; the error names the one that is not.
+/// Whether every array of `attributes` is empty or `count` long; the error names the one that is
+/// not.
 Result<void> check_lengths(const Attributes& attributes, std::size_t count);
 
 /// The attributes of the elements `kept`, in that order; indices may repeat.

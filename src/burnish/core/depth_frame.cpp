@@ -21,14 +21,17 @@ double grazing_ratio(double theta) {
 
 Result<void> check(const Camera& camera) {
   const bool sized = camera.width > 0 && camera.height > 0;
-  const bool focused = std::isfinite(camera.fx) && std::isfinite(camera.fy) && camera.fx > 0 && camera.fy > 0;
+  const bool focused =
+      std::isfinite(camera.fx) && std::isfinite(camera.fy) && camera.fx > 0 && camera.fy > 0;
   const bool centred = std::abs(camera.cx - camera.width / 2.0) <= camera.width &&
                        std::abs(camera.cy - camera.height / 2.0) <= camera.height;
   if (sized && focused && centred) return {};
-  return Error{ErrorCode::invalid_argument,
-               fmt::format("camera {}x{} fx={} fy={} cx={} cy={} cannot be: sizes and focal lengths must "
-                           "be positive, the principal point near the image",
-                           camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy), {}};
+  return Error{
+      ErrorCode::invalid_argument,
+      fmt::format("camera {}x{} fx={} fy={} cx={} cy={} cannot be: sizes and focal lengths must "
+                  "be positive, the principal point near the image",
+                  camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy),
+      {}};
 }
 
 double DepthNoise::axial(double z, double theta) const {
@@ -49,14 +52,17 @@ Result<void> check(const DepthFrame& frame) {
   if (frame.depth.size() != pixels) {
     return Error{ErrorCode::bad_geometry,
                  fmt::format("{} depths for {} x {} pixels", frame.depth.size(), frame.camera.width,
-                             frame.camera.height), {}};
+                             frame.camera.height),
+                 {}};
   }
   for (std::size_t i = 0; i < pixels; ++i) {
     if (!(frame.depth[i] >= 0 && std::isfinite(frame.depth[i]))) {
-      return Error{ErrorCode::bad_geometry, fmt::format("depth of pixel {} is {}", i, frame.depth[i]), {}};
+      return Error{
+          ErrorCode::bad_geometry, fmt::format("depth of pixel {} is {}", i, frame.depth[i]), {}};
     }
   }
-  if (!(rotation_defect(frame.T_world_camera) < 1e-3) || !is_finite(frame.T_world_camera.translation)) {
+  if (!(rotation_defect(frame.T_world_camera) < 1e-3) ||
+      !is_finite(frame.T_world_camera.translation)) {
     return Error{ErrorCode::bad_geometry, "the pose is not a rotation and a translation", {}};
   }
   return {};

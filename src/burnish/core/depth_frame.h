@@ -8,27 +8,31 @@
 
 namespace burnish {
 
-/// A pinhole camera without distortion; x right, y down, z forward; the centre of the first pixel is
-/// at (0, 0). Pixels.
+/// A pinhole camera without distortion; x right, y down, z forward; the centre of the first pixel
+/// is at (0, 0). Pixels.
 struct Camera {
   std::uint32_t width = 0, height = 0;
   double fx = 0, fy = 0;  ///< focal lengths
   double cx = 0, cy = 0;  ///< principal point
 
   /// The point at depth z (along +z, m) seen by pixel (u, v).
-  Vec3d unproject(double u, double v, double z) const { return {(u - cx) / fx * z, (v - cy) / fy * z, z}; }
+  Vec3d unproject(double u, double v, double z) const {
+    return {(u - cx) / fx * z, (v - cy) / fy * z, z};
+  }
   /// Column and row where a point with z > 0 is seen, and its depth.
   Vec3d project(const Vec3d& p) const { return {fx * p.x / p.z + cx, fy * p.y / p.z + cy, p.z}; }
 
   friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-/// Whether sizes and focal lengths are positive and the principal point is finite and near the image.
+/// Whether sizes and focal lengths are positive and the principal point is finite and near the
+/// image.
 Result<void> check(const Camera& camera);
 
 /// Standard deviations of a depth measurement as functions of depth z (m) and of the angle theta
-/// between the surface normal and the ray (rad). Coefficients of one formula, which holds the models
-/// of Nguyen, Izadi and Lovell 2012 and of Fankhauser et al. 2015; sensor/presets.h has their values.
+/// between the surface normal and the ray (rad). Coefficients of one formula, which holds the
+/// models of Nguyen, Izadi and Lovell 2012 and of Fankhauser et al. 2015; sensor/presets.h has
+/// their values.
 ///   axial(z, theta)   = c0 + c1 (z - z0) + c2 (z - z0)^2 + grazing z^power g(theta)        [m]
 ///   lateral(z, theta) = (pixels + pixels_grazing theta / (pi/2 - theta)) z / fx + metres   [m]
 ///   g(theta)          = theta^2 / (pi/2 - theta)^2 beyond grazing_from, else 0
@@ -48,10 +52,10 @@ struct DepthNoise {
 /// One image of a depth camera.
 struct DepthFrame {
   Camera camera;
-  std::vector<float> depth;        ///< width * height, row by row, along +z, m; 0 = none
+  std::vector<float> depth;  ///< width * height, row by row, along +z, m; 0 = none
   RigidTransform T_world_camera;
   DepthNoise noise;
-  double time = 0;                 ///< s
+  double time = 0;  ///< s
 
   friend bool operator==(const DepthFrame&, const DepthFrame&) = default;
 };

@@ -89,7 +89,8 @@ Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& me
   if (mesh->value.triangles.empty()) {
     return in_step("triangulate", method,
                    {ErrorCode::bad_geometry,
-                    fmt::format("no triangle came of {} points", cloud.positions.size()), {}});
+                    fmt::format("no triangle came of {} points", cloud.positions.size()),
+                    {}});
   }
   return std::move(mesh->value);
 }

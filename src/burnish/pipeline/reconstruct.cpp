@@ -125,9 +125,10 @@ Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& rec
     clouds.push_back(*std::move(cloud));
   }
   if (points == 0) {
-    return Error{ErrorCode::bad_geometry,
-                 recipe.crop ? "no point is left of the scans after cropping" : "the scans hold no point",
-                 {}};
+    return Error{
+        ErrorCode::bad_geometry,
+        recipe.crop ? "no point is left of the scans after cropping" : "the scans hold no point",
+        {}};
   }
   reading.facts = {{"scans", count, ""}, {"points", static_cast<double>(points), ""}};
   record.steps.push_back(std::move(reading));
@@ -140,8 +141,7 @@ Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& rec
 /// One cloud from all: organized only where there is a single organized scan.
 Result<PointCloud> merge_scans(std::vector<PointCloud> clouds, const Recipe& recipe, Record& record,
                                const Context& context) {
-  if (clouds.size() == 1 && clouds.front().grid)
-    return std::move(clouds.front());
+  if (clouds.size() == 1 && clouds.front().grid) return std::move(clouds.front());
   Result<PointCloud> merged =
       clouds.size() == 1 ? Result<PointCloud>(std::move(clouds.front()))
                          : merge_clouds(clouds, recipe.merge, record, context.part(0, 0.8));

@@ -63,8 +63,8 @@ struct ClosestPoint::Builder {
   std::vector<Vec3f> low, high;      ///< of each triangle
   std::vector<std::uint32_t> order;  ///< triangles, to be arranged leaf by leaf
 
-  Builder(const TriangleMesh& m, const Context& c, std::vector<Node>& n)
-      : mesh(m), context(c), nodes(n), order(m.triangles.size()) {
+  Builder(const TriangleMesh& m, const Context& stop, std::vector<Node>& n)
+      : mesh(m), context(stop), nodes(n), order(m.triangles.size()) {
     std::iota(order.begin(), order.end(), 0u);
     for (const auto& [a, b, c] : m.triangles) {
       const Vec3f &p = m.positions[a], &q = m.positions[b], &r = m.positions[c];
