@@ -164,11 +164,11 @@ Result<Reconstruction> reconstruct(const ScanInputs& inputs, const Recipe& recip
   Result<Judge> judge = Judge::of(options.truth, context.part(0, 0.02));
   if (!judge) return std::move(judge).error();
   record.notes.insert(record.notes.end(), (*scans)->notes().begin(), (*scans)->notes().end());
-  record.viewpoint = (*scans)->viewpoint();
 
   Result<std::vector<PointCloud>> clouds =
       read_scans(**scans, recipe, *judge, record, context.part(0.02, 0.3));
   if (!clouds) return std::move(clouds).error();
+  if (clouds->front().grid) record.viewpoint = (*scans)->viewpoint();
   const Result<PointCloud> cloud =
       merge_scans(*std::move(clouds), recipe, record, context.part(0.3, 0.6));
   if (!cloud) return cloud.error();

@@ -41,7 +41,7 @@ class FrameScans : public Scans {
     return unproject(*frame, {}, context);
   }
 
-  std::optional<Viewpoint> viewpoint() const override {
+  Viewpoint viewpoint() const override {
     return Viewpoint{frames_.camera(),
                      frames_.files().front().T_world_camera.value_or(RigidTransform{})};
   }
@@ -95,6 +95,11 @@ class CloudScans : public Scans {
       cloud->attributes.origin.assign(cloud->positions.size(), Origin::seen);
     if (poses_.empty()) return cloud;
     return transformed(*std::move(cloud), poses_[i]);
+  }
+
+  /// Depth cameras write organized clouds in their own coordinates, z forward.
+  Viewpoint viewpoint() const override {
+    return {sensor_.camera, poses_.empty() ? RigidTransform{} : poses_.front()};
   }
 
  private:

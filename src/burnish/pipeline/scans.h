@@ -31,8 +31,8 @@ class Scans {
   /// Errors: those of reading the file, and bad_geometry where it holds no point.
   virtual Result<PointCloud> read(std::size_t i, const Context& context) const = 0;
 
-  /// Where the first camera stood, where that is known.
-  virtual std::optional<Viewpoint> viewpoint() const { return std::nullopt; }
+  /// Where the first camera stood, provided that it was one: that scan 0 is organized.
+  virtual Viewpoint viewpoint() const = 0;
 
   const std::vector<std::string>& notes() const { return notes_; }
 
