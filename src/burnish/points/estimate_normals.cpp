@@ -52,7 +52,8 @@ Result<Estimate> unorganized(const PointCloud& cloud, const NormalParams& params
     for (std::size_t i = range.begin; i < range.end; ++i) {
       grid.nearest(cloud.positions[i], k, found);
       Vec3d normal = least_direction(cloud.positions, found);
-      if (cloud.viewpoint && dot(normal, viewpoint_or_origin(cloud) - Vec3d(cloud.positions[i])) < 0) {
+      if (cloud.viewpoint &&
+          dot(normal, viewpoint_or_origin(cloud) - Vec3d(cloud.positions[i])) < 0) {
         normal = -normal;
       }
       estimate.normals[i] = Vec3f(normal);
@@ -64,7 +65,8 @@ Result<Estimate> unorganized(const PointCloud& cloud, const NormalParams& params
   });
   if (!complete) return cancelled();
   if (!cloud.viewpoint) {
-    estimate.components = orient_consistently(cloud.positions, neighbours, k, estimate.normals);
+    estimate.components =
+        orient_consistently(cloud.positions, neighbours, k, estimate.normals, context);
   }
   if (context.cancelled()) return cancelled();
   context.progress(1);

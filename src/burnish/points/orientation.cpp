@@ -31,12 +31,30 @@ double agreement(std::span<const Vec3f> positions, const std::vector<Vec3f>& nor
   return (dot(m, n) - 2 * rise_i * rise_j) * (1 - steep);
 }
 
-/// The links of the minimum spanning tree, Kruskal's way.
+using LinkIterator = std::vector<Link>::iterator;
+
+/// Sorts in pieces that are short enough to stop between them.
+void sort_links(LinkIterator begin, LinkIterator end, const Context& context) {
+  constexpr std::ptrdiff_t kPiece = 200000;
+  if (context.cancelled()) return;
+  if (end - begin <= kPiece) {
+    std::sort(begin, end);
+    return;
+  }
+  const LinkIterator middle = begin + (end - begin) / 2;
+  std::nth_element(begin, middle, end);
+  sort_links(begin, middle, context);
+  sort_links(middle, end, context);
+}
+
+/// The links of the minimum spanning tree, Kruskal's way; of a part where it is cancelled.
 std::vector<Link> spanning_links(std::span<const Vec3f> positions,
                                  std::span<const std::uint32_t> neighbours, std::size_t count,
-                                 const std::vector<Vec3f>& normals) {
+                                 const std::vector<Vec3f>& normals, const Context& context) {
+  constexpr std::uint32_t kCheckStop = 1 << 14;
   std::vector<Link> links;
   for (std::uint32_t i = 0; i < normals.size(); ++i) {
+    if (i % kCheckStop == 0 && context.cancelled()) return {};
     if (normals[i] == Vec3f{}) continue;
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t j = neighbours[i * count + k];
@@ -48,7 +66,8 @@ std::vector<Link> spanning_links(std::span<const Vec3f> positions,
       links.push_back({static_cast<float>(weight), std::min(i, j), std::max(i, j)});
     }
   }
-  std::sort(links.begin(), links.end());
+  sort_links(links.begin(), links.end(), context);
+  if (context.cancelled()) return {};
   DisjointSets sets(normals.size());
   std::erase_if(links, [&](const Link& link) { return !sets.unite(link.a, link.b); });
   return links;
@@ -71,9 +90,10 @@ Adjacency tree_of(const std::vector<Link>& links, std::size_t count) {
 
 std::size_t orient_consistently(std::span<const Vec3f> positions,
                                 std::span<const std::uint32_t> neighbours, std::size_t count,
-                                std::vector<Vec3f>& normals) {
+                                std::vector<Vec3f>& normals, const Context& context) {
   const Adjacency tree =
-      tree_of(spanning_links(positions, neighbours, count, normals), normals.size());
+      tree_of(spanning_links(positions, neighbours, count, normals, context), normals.size());
+  if (context.cancelled()) return 0;
   std::vector<std::uint32_t> from_top;
   for (std::uint32_t i = 0; i < normals.size(); ++i) {
     if (normals[i] != Vec3f{}) from_top.push_back(i);
