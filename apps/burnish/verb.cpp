@@ -44,18 +44,6 @@ std::string methods_help(std::string_view family) {
   return text;
 }
 
-CLI::Option* add_quantity(CLI::App* verb, const std::string& name, double& value, Quantity quantity,
-                          const std::string& help) {
-  return verb->add_option_function<std::string>(
-      name,
-      [&value, quantity](const std::string& text) {
-        const Result<double> parsed = parse_quantity(text, quantity);
-        if (!parsed) throw CLI::ValidationError(parsed.error().text());
-        value = *parsed;
-      },
-      help);
-}
-
 CLI::Option* add_method(CLI::App* verb, const std::string& name, std::vector<std::string>& methods,
                         std::string_view family, const std::string& help) {
   return verb->add_option(name, methods, help)

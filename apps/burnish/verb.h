@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "burnish/base/context.h"
-#include "burnish/base/quantity.h"
+#include "burnish/base/facts.h"
 #include "burnish/base/result.h"
 #include "burnish/catalogue/operations.h"
 
@@ -45,10 +45,6 @@ std::string readable(const Fact& fact);
 
 /// The methods of a family with their parameters, for the end of a help text.
 std::string methods_help(std::string_view family);
-
-/// Adds an option that takes a number with a unit (5mm, 30deg) to a verb.
-CLI::Option* add_quantity(CLI::App* verb, const std::string& name, double& value, Quantity quantity,
-                          const std::string& help);
 
 /// Adds an option that takes NAME[:key=value,...]; the method is looked up when the verb runs.
 CLI::Option* add_method(CLI::App* verb, const std::string& name, std::vector<std::string>& methods,

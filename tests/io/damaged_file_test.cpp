@@ -211,22 +211,22 @@ TEST(Memory, StaysWithinItsBound) {
   };
   // The files that ask for the most memory per byte. They are small, to be quick, and so is the
   // allowance, so that it does not hide what grows with the file.
-  constexpr std::size_t kMillion = 250000;
+  constexpr std::size_t kRows = 250000;
   constexpr std::size_t kAllowance = std::size_t{16} << 20;
   const std::string vertices = "ply\nformat ascii 1.0\nelement vertex ";
   const std::string fields = "\nproperty double x\nproperty double y\nproperty double z\n";
   const std::vector<std::pair<std::string, std::string>> files{
-      {"short.xyz", repeated("0 0 0\n", 4 * kMillion)},
-      {"columns.xyz", repeated("0 0 0 5 5 5 5 5\n", 3 * kMillion / 2)},
-      {"short.obj", repeated("v 0 0 0\n", 2 * kMillion) + repeated("f 1 2 3\n", kMillion)},
-      {"colors.obj", repeated("v 0 0 0 1 1 1\n", 2 * kMillion)},
+      {"short.xyz", repeated("0 0 0\n", 4 * kRows)},
+      {"columns.xyz", repeated("0 0 0 5 5 5 5 5\n", 3 * kRows / 2)},
+      {"short.obj", repeated("v 0 0 0\n", 2 * kRows) + repeated("f 1 2 3\n", kRows)},
+      {"colors.obj", repeated("v 0 0 0 1 1 1\n", 2 * kRows)},
       {"polygons.obj", repeated("v 0 0 0\n", 10) + repeated("f 1 2 3 4 5 6 7 8 9\n", 300000)},
-      {"short.off", "OFF\n500000 250000 0\n" + repeated("0 0 0\n", 2 * kMillion) +
-                        repeated("3 0 1 2\n", kMillion)},
+      {"short.off", "OFF\n500000 250000 0\n" + repeated("0 0 0\n", 2 * kRows) +
+                        repeated("3 0 1 2\n", kRows)},
       {"short.ply",
-       vertices + "1000000" + fields + "end_header\n" + repeated("0 0 0\n", 4 * kMillion)},
+       vertices + "1000000" + fields + "end_header\n" + repeated("0 0 0\n", 4 * kRows)},
       {"far.ply",
-       vertices + "750000" + fields + "end_header\n" + repeated("9e9 0 0\n", 3 * kMillion)},
+       vertices + "750000" + fields + "end_header\n" + repeated("9e9 0 0\n", 3 * kRows)},
       {"polygons.ply",
        "ply\nformat binary_little_endian 1.0\nelement vertex 10\nproperty char x\nproperty char y\n"
        "property char z\nelement face 600000\nproperty list uchar uchar "
