@@ -52,11 +52,6 @@ struct Judge {
 
 }  // namespace
 
-double triangle_shape(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const double sum = squared_norm(b - a) + squared_norm(c - b) + squared_norm(a - c);
-  return sum > 0 ? 2 * std::numbers::sqrt3 * norm(cross(b - a, c - a)) / sum : 0;
-}
-
 bool count_votes(std::span<const Vec3f> positions, std::span<const Vec3f> normals, const Fans& fans,
                  double reach, const Context& context, std::vector<Candidate>& candidates) {
   const Judge judge{positions, normals, fans, reach};

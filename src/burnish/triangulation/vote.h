@@ -24,7 +24,4 @@ struct Candidate {
 bool count_votes(std::span<const Vec3f> positions, std::span<const Vec3f> normals, const Fans& fans,
                  double reach, const Context& context, std::vector<Candidate>& candidates);
 
-/// 4 sqrt(3) area / sum of squared edges.
-double triangle_shape(const Vec3d& a, const Vec3d& b, const Vec3d& c);
-
 }  // namespace burnish
