@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <filesystem>
 
 #include "burnish/io/file_format.h"
@@ -9,24 +6,7 @@
 namespace burnish::app {
 
 Result<void> check_output(const std::string& path) {
-  namespace fs = std::filesystem;
-  const fs::path file(path);
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  std::string known;
-  bool writable = false;
-  for (const FileFormat& format : geometry_formats()) {
-    if (!format.write) continue;
-    for (const std::string_view extension : format.extensions) {
-      known += fmt::format("{}{}", known.empty() ? "" : ", ", extension);
-      writable |= extension == ending;
-    }
-  }
-  if (!writable) {
-    return Error{ErrorCode::unsupported,
-                 fmt::format("'{}' is no format to write, known: {}", ending, known), path};
-  }
+  if (auto format = format_to_write(path); !format) return format.error();
   return check_folder_of(path);
 }
 

@@ -12,11 +12,6 @@ struct Options {
   bool ascii = false;
 };
 
-PointCloud cloud_of(GeometryFile file) {
-  return {std::move(file.mesh.positions), std::move(file.mesh.attributes), file.grid,
-          file.viewpoint, file.mesh.frame};
-}
-
 Result<void> convert(const Options& options, const Session& session, const Context& context) {
   if (auto possible = check_output(options.output); !possible) return possible;
   context.stage("reading " + options.input);

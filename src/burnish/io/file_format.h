@@ -47,4 +47,8 @@ struct FileFormat {
   void (*write)(Output&, const GeometryView&, const WriteOptions&);  ///< null: none
 };
 
+/// The format that the extension of `path` names, provided that it can be written. Errors:
+/// unsupported, with the extensions that would do.
+Result<const FileFormat*> format_to_write(const std::filesystem::path& path);
+
 }  // namespace burnish

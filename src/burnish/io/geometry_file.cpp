@@ -158,6 +158,13 @@ Result<WriteReport> write_format(const fs::path& path, const FileFormat& format,
   return WriteReport{std::move(*notes)};
 }
 
+Error located(Error error, const fs::path& path) {
+  if (error.where.empty()) error.where = "to be written to " + path.string();
+  return error;
+}
+
+}  // namespace
+
 Result<const FileFormat*> format_to_write(const fs::path& path) {
   const FileFormat* format = format_with_extension(extension_of(path));
   if (format && format->write) return format;
@@ -165,13 +172,6 @@ Result<const FileFormat*> format_to_write(const fs::path& path) {
                "the extension names no format that can be written (" + all_extensions(true) + ")",
                path.string()};
 }
-
-Error located(Error error, const fs::path& path) {
-  if (error.where.empty()) error.where = "to be written to " + path.string();
-  return error;
-}
-
-}  // namespace
 
 std::span<const FileFormat> geometry_formats() {
   static const std::vector<FileFormat> formats{
@@ -269,11 +269,15 @@ Result<TriangleMesh> read_mesh(const fs::path& path, const Context& context) {
   return std::move(file->mesh);
 }
 
+PointCloud cloud_of(GeometryFile file) {
+  return {std::move(file.mesh.positions), std::move(file.mesh.attributes), file.grid,
+          file.viewpoint, file.mesh.frame};
+}
+
 Result<PointCloud> read_cloud(const fs::path& path, const Context& context) {
   auto file = read_geometry(path, context);
   if (!file) return file.error();
-  return PointCloud{std::move(file->mesh.positions), std::move(file->mesh.attributes), file->grid,
-                    file->viewpoint, file->mesh.frame};
+  return cloud_of(*std::move(file));
 }
 
 Result<WriteReport> write_mesh(const fs::path& path, const TriangleMesh& mesh,

@@ -22,6 +22,9 @@ struct GeometryFile {
   std::vector<std::string> notes;  ///< what was left out or changed, a sentence each
 };
 
+/// The points of a file: of a mesh its vertices.
+PointCloud cloud_of(GeometryFile file);
+
 struct WriteOptions {
   bool ascii = false;                 ///< text, where the format has both
   std::vector<std::string> comments;  ///< into the header; line breaks become blanks

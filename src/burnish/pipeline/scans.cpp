@@ -9,6 +9,7 @@
 #include "burnish/io/geometry_file.h"
 #include "burnish/points/estimate_normals.h"
 #include "burnish/points/unproject.h"
+#include "burnish/sensor/frame_layout.h"
 #include "burnish/sensor/pose_list.h"
 #include "burnish/sensor/presets.h"
 
@@ -153,17 +154,12 @@ std::string lower_ending(const fs::path& path) {
   return ending;
 }
 
-bool is_image(const fs::path& path) {
-  const std::string ending = lower_ending(path);
-  return ending == ".png" || ending == ".pgm" || ending == ".tif" || ending == ".tiff";
-}
-
 /// The organized clouds of a folder by name; none where it holds depth images or no clouds.
 std::vector<fs::path> clouds_in(const fs::path& folder) {
   std::vector<fs::path> clouds;
   std::error_code unreadable;
   for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
-    if (is_image(entry.path())) return {};
+    if (is_depth_image(entry.path())) return {};
     if (lower_ending(entry.path()) == ".pcd") clouds.push_back(entry.path());
   }
   std::sort(clouds.begin(), clouds.end());
@@ -186,7 +182,7 @@ std::vector<fs::path> unfolded(const std::vector<fs::path>& paths) {
 }
 
 bool is_image_or_folder(const fs::path& path) {
-  return is_folder(path) || is_image(path);
+  return is_folder(path) || is_depth_image(path);
 }
 
 }  // namespace

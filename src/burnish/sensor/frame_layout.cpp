@@ -28,12 +28,6 @@ std::string_view take_digits(std::string_view& text) {
   return digits;
 }
 
-bool is_image(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".png" || extension == ".pgm" || extension == ".tif" || extension == ".tiff";
-}
-
 /// The images of a folder in natural order; those with "depth" in their names, where there are any.
 Result<std::vector<fs::path>> images_in(const fs::path& folder) {
   std::vector<fs::path> images;
@@ -42,7 +36,7 @@ Result<std::vector<fs::path>> images_in(const fs::path& folder) {
        entry.increment(failed)) {
     std::error_code ignored;
     const bool hidden = entry->path().filename().string().starts_with('.');
-    if (!hidden && is_image(entry->path()) && entry->is_regular_file(ignored)) {
+    if (!hidden && is_depth_image(entry->path()) && entry->is_regular_file(ignored)) {
       images.push_back(entry->path());
     }
   }
@@ -122,6 +116,12 @@ Result<FrameLayout> find_in_folder(const fs::path& given) {
 }
 
 }  // namespace
+
+bool is_depth_image(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".png" || extension == ".pgm" || extension == ".tif" || extension == ".tiff";
+}
 
 bool natural_less(std::string_view a, std::string_view b) {
   const std::string_view whole_a = a, whole_b = b;

@@ -26,6 +26,9 @@ Result<FrameLayout> find_frames(const std::vector<std::filesystem::path>& inputs
 std::optional<std::filesystem::path> find_beside(const FrameLayout& layout,
                                                  std::initializer_list<std::string_view> names);
 
+/// Whether the ending is one of a depth image: PNG, PGM or TIFF, in any case.
+bool is_depth_image(const std::filesystem::path& path);
+
 /// Whether `a` comes before `b` when runs of digits are compared as numbers.
 bool natural_less(std::string_view a, std::string_view b);
 
