@@ -120,6 +120,41 @@ TEST(WithoutUnusedVertices, KeepsTheOrderOfTheOthers) {
   EXPECT_EQ(tidy.attributes.observations, (std::vector<std::uint32_t>{10, 30, 40}));
 }
 
+TEST(WithoutUnusedVertices, KeepsOwnersOfTriangles) {
+  TriangleMesh mesh;
+  mesh.positions = {{9, 0, 0}, {1, 0, 0}, {9, 1, 0}, {2, 0, 0}, {3, 1, 0}};
+  mesh.triangles = {{4, 1, 3}};
+  mesh.triangle_attributes = {{Origin::invented}, {2}};
+  const TriangleMesh tidy = without_unused_vertices(mesh);
+  EXPECT_EQ(tidy.positions, (std::vector<Vec3f>{{1, 0, 0}, {9, 1, 0}, {2, 0, 0}, {3, 1, 0}}));
+  EXPECT_EQ(tidy.triangle_attributes.owner, (std::vector<std::uint32_t>{1}));
+  EXPECT_EQ(tidy.triangle_attributes.origin, (std::vector<Origin>{Origin::invented}));
+}
+
+TEST(TriangleAttributes, AreAsLongAsThereAreTriangles) {
+  TriangleMesh mesh = make_box({1, 1, 1});
+  EXPECT_TRUE(check(mesh));
+  mesh.triangle_attributes.origin.assign(mesh.triangles.size() - 1, Origin::seen);
+  EXPECT_EQ(check(mesh).error().code, ErrorCode::bad_geometry);
+  mesh.triangle_attributes.origin.clear();
+  mesh.triangle_attributes.owner.assign(mesh.triangles.size(), 0);
+  EXPECT_TRUE(check(mesh));
+  mesh.triangle_attributes.owner[5] = 8;
+  EXPECT_EQ(check(mesh).error().code, ErrorCode::bad_geometry);
+}
+
+TEST(KeepTriangles, KeepsWhatIsKnownOfThem) {
+  TriangleMesh mesh = make_box({1, 1, 1});
+  const std::vector<Triangle> all = mesh.triangles;
+  for (std::uint32_t t = 0; t < all.size(); ++t) {
+    mesh.triangle_attributes.owner.push_back(all[t][1]);
+  }
+  keep_triangles(mesh, std::vector<std::uint32_t>{7, 2});
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{all[7], all[2]}));
+  EXPECT_EQ(mesh.triangle_attributes.owner, (std::vector<std::uint32_t>{all[7][1], all[2][1]}));
+  EXPECT_TRUE(mesh.triangle_attributes.origin.empty());
+}
+
 TEST(VertexNormals, OfASpherePointOutwards) {
   const TriangleMesh sphere = make_sphere(2, 3);
   const auto normals = vertex_normals(sphere);

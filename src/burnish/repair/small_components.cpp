@@ -46,11 +46,12 @@ Result<RepairReport> remove_small_components(TriangleMesh& mesh,
   context.progress(0.5);
   if (context.cancelled()) return cancelled();
 
-  TriangleMesh result = mesh;
-  result.triangles.clear();
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (kept[component[t]]) result.triangles.push_back(mesh.triangles[t]);
+  std::vector<std::uint32_t> kept_triangles;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (kept[component[t]]) kept_triangles.push_back(t);
   }
+  TriangleMesh result = mesh;
+  keep_triangles(result, kept_triangles);
   result = without_unused_vertices(result);
   if (context.cancelled()) return cancelled();
 
