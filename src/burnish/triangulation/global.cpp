@@ -44,21 +44,31 @@ bool insert_candidates(const std::vector<Candidate>& candidates, const Context& 
   }
   if (context.cancelled()) return false;
   sort_doubtful(doubtful);
-  for (std::size_t i = 0; i < doubtful.size(); ++i) {
-    if (i % kBetweenLooks == 0 && context.cancelled()) return false;
-    const Triangle& t = doubtful[i].triangle;
-    if (!surface.overlaps(t)) surface.add_if_manifold(t);
+  // What is not joined to the surface yet may be once others are.
+  for (bool grown = true; grown;) {
+    grown = false;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < doubtful.size(); ++i) {
+      if (i % kBetweenLooks == 0 && context.cancelled()) return false;
+      const Triangle& t = doubtful[i].triangle;
+      if (!surface.touches(t)) {
+        doubtful[kept++] = doubtful[i];
+      } else if (!surface.overlaps(t)) {
+        grown = surface.add_if_manifold(t) || grown;
+      }
+    }
+    doubtful.resize(kept);
   }
   return true;
 }
 
 /// Estimates the normals of `positions`, which are points of `cloud`.
-bool orient(const PointCloud& cloud, std::span<const Vec3f> positions,
+bool orient(const PointCloud& cloud, std::span<const Vec3f> positions, const NeighbourGrid& grid,
             const NeighbourLists& neighbours, const Context& context, std::vector<Vec3f>& normals) {
   std::optional<Vec3d> viewpoint;
   if (cloud.viewpoint) viewpoint = *cloud.viewpoint - cloud.frame.origin;
   std::size_t components = 0;
-  return normals_of_surface(positions, neighbours, viewpoint, context, normals, components);
+  return normals_of_surface(positions, grid, neighbours, viewpoint, context, normals, components);
 }
 
 /// Leaves every vertex one fan, its largest. Returns false where cancelled.
@@ -114,7 +124,8 @@ Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalPa
   }
   context.stage("estimating normals");
   std::vector<Vec3f> normals = gather(cloud.attributes.normals, order);
-  if (normals.empty() && !orient(cloud, positions, neighbours, context.part(0.2, 0.4), normals)) {
+  if (normals.empty() &&
+      !orient(cloud, positions, grid, neighbours, context.part(0.2, 0.4), normals)) {
     return cancelled();
   }
 

@@ -33,6 +33,11 @@ class ManifoldSurface {
   /// corner's normal. O(valence).
   bool overlaps(const Triangle& t) const;
 
+  /// Whether an edge of `t` is one of a triangle on its other side. O(valence).
+  bool touches(const Triangle& t) const {
+    return has_edge(t[1], t[0]) || has_edge(t[2], t[1]) || has_edge(t[0], t[2]);
+  }
+
   void remove(std::uint32_t triangle);
 
   /// Whether some triangle has the edge from a to b in this direction.
