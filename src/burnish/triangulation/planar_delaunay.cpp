@@ -112,6 +112,7 @@ class PlanarDelaunay {
   }
 
   void list_part(const EdgeSlots& slots, std::vector<Triangle>& triangles) const {
+    triangles.reserve((slots.end() - slots.begin()) / 3);
     for (std::uint32_t e = slots.begin(); e < slots.end(); ++e) {
       if (!edges_.is_inside(e)) continue;
       const std::uint32_t a = order_[edges_.origin(e)].index;
