@@ -50,6 +50,10 @@ std::size_t keep_nearest(std::vector<Keyed>& order, const Image& image, const Po
   return gone;
 }
 
+double squared_distance(const Vec2d& a, const Vec2d& b) {
+  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+}
+
 /// Which triangles stay.
 class Judge {
  public:
@@ -62,18 +66,19 @@ class Judge {
         least_cosine_(params.max_angle < std::numbers::pi / 2 ? std::cos(params.max_angle) : 0) {}
 
   bool keeps_all() const {
-    return view_.rounding() == 0 && squared_edge_ == HUGE_VAL && least_cosine_ == 0;
+    return view_.step() == 0 && squared_edge_ == HUGE_VAL && least_cosine_ == 0;
   }
   bool keeps(const Triangle& t) const { return !too_thin(t) && !too_long_or_steep(t); }
 
  private:
+  /// Three points on a line are at most sqrt(2) steps off it when their coordinates are rounded.
   bool too_thin(const Triangle& t) const {
+    if (view_.step() == 0) return false;
     const Vec2d &a = image_.points[t[0]], &b = image_.points[t[1]], &c = image_.points[t[2]];
     const double area = (a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x);
     const double longest =
-        std::max({std::hypot(b.x - a.x, b.y - a.y), std::hypot(c.x - b.x, c.y - b.y),
-                  std::hypot(a.x - c.x, a.y - c.y)});
-    return view_.rounding() > 0 && area <= view_.rounding() * longest;
+        std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
+    return area * area <= 2 * view_.step() * view_.step() * longest;
   }
 
   bool too_long_or_steep(const Triangle& t) const {

@@ -39,7 +39,7 @@ struct DelaunayParams {
 /// of four points on one circle the choice is by their coordinates: it depends neither on the order
 /// of the points nor on anything else. They cover the convex hull, but where `max_edge` or
 /// `max_angle` drops long or steep ones; patches may then touch in a vertex. `plane` and `view`
-/// round: triangles that are thinner in the projection than that are left out.
+/// round coordinates to 2^-32 of the largest; triangles not thicker than that are left out.
 ///
 /// Points that no triangle uses are left out, attributes are carried; missing pixels of an
 /// organized cloud are skipped. Triangles are sorted by their smallest index. O(#P log #P). Errors:

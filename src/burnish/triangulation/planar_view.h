@@ -23,8 +23,8 @@ class PlanarView {
   /// Grows along the line of sight towards the viewer.
   double nearness(const Vec3f& p) const;
 
-  /// How far coordinates may be from the exact ones; 0 along an axis.
-  double rounding() const { return rounding_; }
+  /// Coordinates are multiples of this power of two; 0 where they are exact, along an axis.
+  double step() const { return step_; }
 
  private:
   PlanarView(const Vec3d& towards, const Vec3d& eye, bool central);
@@ -34,7 +34,7 @@ class PlanarView {
   Vec3d right_, up_, towards_;  ///< of length 1; the viewer is where towards_ points
   Vec3d eye_;                   ///< in the cloud's frame; the origin for parallel lines
   bool central_;
-  double rounding_ = 0;
+  double step_ = 0;
 };
 
 }  // namespace burnish
