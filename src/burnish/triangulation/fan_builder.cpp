@@ -22,13 +22,15 @@ FanBuilder::FanBuilder(const FanCloudParams& params, NearestQuery nearest)
       steepest_(std::min(kVertical, std::pow(std::sin(params.steep_angle), 2))),
       ring_(params.gap_angle) {}
 
+std::size_t FanBuilder::first_neighbours(const FanCloudParams& params) {
+  return static_cast<std::size_t>(params.k * std::min(params.cap, 2));
+}
+
 const Fan& FanBuilder::build(std::uint32_t p, const OrientedPoints& points) {
   const std::size_t most = k_ * static_cast<std::size_t>(params_.cap);
-  // So many suffice for most fans.
-  const std::size_t first = params_.variant == FanVariant::ring ? k_ + k_ / 2 : 2 * k_;
-  std::size_t count = std::min(first, most);
+  std::size_t count = first_neighbours(params_);
   for (;; count = most) {
-    nearest_(points.positions[p], count + 1, neighbours_);
+    nearest_(p, count + 1, neighbours_);
     std::erase_if(neighbours_, [p](const Neighbour& q) { return q.index == p; });
     const bool all_there_are = neighbours_.size() < count;
     if (build_from_neighbours(p, points) || all_there_are || count == most) break;

@@ -43,15 +43,18 @@ struct OrientedPoints {
   std::span<const Vec3f> positions, normals;
 };
 
-/// Answers which points are nearest to a place: NeighbourGrid::nearest and its like. Coincident
-/// points are found once.
+/// Answers which points are nearest to one of them, itself among them, in the order of (distance,
+/// index). Coincident points are found once.
 using NearestQuery =
-    std::function<void(const Vec3f& place, std::size_t count, std::vector<Neighbour>& found)>;
+    std::function<void(std::uint32_t point, std::size_t count, std::vector<Neighbour>& found)>;
 
 /// Builds fan after fan with the same memory. What a fan is, fan_cloud.h says.
 class FanBuilder {
  public:
   FanBuilder(const FanCloudParams& params, NearestQuery nearest);
+
+  /// So many neighbours are asked for first, and suffice for most fans.
+  static std::size_t first_neighbours(const FanCloudParams& params);
 
   /// The fan of point `p`, one of those that the query finds; valid until the next is built.
   const Fan& build(std::uint32_t p, const OrientedPoints& points);

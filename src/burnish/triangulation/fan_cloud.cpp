@@ -33,23 +33,31 @@ Result<void> check_points(std::span<const Vec3f> positions, std::span<const Vec3
   return {};
 }
 
-/// The points named in `order`, rising: equally near ones are found in the order of their indices.
-struct NumberedGrid {
-  std::vector<std::uint32_t> numbers;
-  NeighbourGrid grid;
+/// Of points that are distinct and all there: most fans need no more neighbours than are looked up
+/// for all points at once.
+class StaticNeighbours {
+ public:
+  StaticNeighbours(std::span<const Vec3f> positions) : positions_(positions), grid_(positions) {}
 
-  NumberedGrid(const std::vector<Vec3f>& positions, std::vector<std::uint32_t> order)
-      : numbers(sorted(std::move(order))), grid(gather(positions, numbers)) {}
-
-  static std::vector<std::uint32_t> sorted(std::vector<std::uint32_t> order) {
-    std::sort(order.begin(), order.end());
-    return order;
+  [[nodiscard]] bool look_up(std::size_t count, const Context& context) {
+    return grid_.nearest_of_all(count, context, lists_);
   }
 
-  void nearest(const Vec3f& place, std::size_t count, std::vector<Neighbour>& found) const {
-    grid.nearest(place, count, found);
-    for (Neighbour& neighbour : found) neighbour.index = numbers[neighbour.index];
+  void nearest(std::uint32_t p, std::size_t count, std::vector<Neighbour>& found) const {
+    if (count > lists_.count() && lists_.count() < positions_.size()) {
+      return grid_.nearest(positions_[p], count, found);
+    }
+    found.clear();
+    for (const std::uint32_t q : lists_.of(p)) {
+      if (found.size() == count) return;
+      found.push_back({q, squared_norm(Vec3d(positions_[q]) - Vec3d(positions_[p]))});
+    }
   }
+
+ private:
+  std::span<const Vec3f> positions_;
+  NeighbourGrid grid_;
+  NeighbourLists lists_;
 };
 
 }  // namespace
@@ -76,51 +84,62 @@ Result<void> FanCloud::build_all(const Context& context) {
   rims_.resize(size());
   fan_normals_.resize(size());
   squared_reaches_.resize(size());
-  std::vector<Vec3f> there = positions_;
-  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
-  for (std::uint32_t p = 0; p < size(); ++p) {
-    if (!active(p)) there[p] = {kNowhere, kNowhere, kNowhere};
-  }
-  const std::vector<std::uint32_t> order = order_along_curve(there);
-  const NumberedGrid grid(positions_, order);
-  const auto nearest = [&grid](const Vec3f& place, std::size_t count,
-                               std::vector<Neighbour>& found) {
-    grid.nearest(place, count, found);
-  };
+  const std::vector<std::uint32_t> numbers = first_in_place();
+  const std::vector<Vec3f> positions = gather(positions_, numbers);
+  const std::vector<Vec3f> normals = gather(normals_, numbers);
+  StaticNeighbours neighbours(positions);
+  const std::size_t first = FanBuilder::first_neighbours(params_) + 1;
+  if (!neighbours.look_up(first, context.part(0, 0.4))) return cancelled();
 
-  // Along the curve one fan's neighbours are still at hand for the next.
   struct Block {
     std::vector<std::uint32_t> rims, ends;
   };
-  std::vector<Block> blocks((order.size() + kPointsAtOnce - 1) / kPointsAtOnce);
+  std::vector<Block> blocks((numbers.size() + kPointsAtOnce - 1) / kPointsAtOnce);
   const bool complete = parallel_for(
-      context, blocks.size(),
+      context.part(0.4, 1), blocks.size(),
       [&](IndexRange range) {
-        FanBuilder builder(params_, nearest);
+        FanBuilder builder(params_, [&neighbours](std::uint32_t i, std::size_t count,
+                                                  std::vector<Neighbour>& found) {
+          neighbours.nearest(i, count, found);
+        });
         for (std::size_t b = range.begin; b < range.end; ++b) {
-          const std::size_t end = std::min(order.size(), (b + 1) * kPointsAtOnce);
+          const std::size_t end = std::min(numbers.size(), (b + 1) * kPointsAtOnce);
           for (std::size_t i = b * kPointsAtOnce; i < end; ++i) {
-            const std::uint32_t p = order[i];
-            const Fan& fan = builder.build(p, points());
+            const Fan& fan = builder.build(static_cast<std::uint32_t>(i), {positions, normals});
+            const std::uint32_t p = numbers[i];
             fan_normals_[p] = fan.normal;
             states_[p] = fan.state;
             squared_reaches_[p] = fan.squared_reach;
-            blocks[b].rims.insert(blocks[b].rims.end(), fan.rim.begin(), fan.rim.end());
+            for (const std::uint32_t q : fan.rim) {
+              blocks[b].rims.push_back(q == Fan::kGap ? q : numbers[q]);
+            }
             blocks[b].ends.push_back(static_cast<std::uint32_t>(blocks[b].rims.size()));
           }
         }
       },
       1);
   if (!complete) return cancelled();
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
     const Block& block = blocks[i / kPointsAtOnce];
     const std::size_t n = i % kPointsAtOnce, begin = n > 0 ? block.ends[n - 1] : 0;
-    rims_.assign(order[i], std::span(block.rims).subspan(begin, block.ends[n] - begin));
+    rims_.assign(numbers[i], std::span(block.rims).subspan(begin, block.ends[n] - begin));
   }
   for (std::uint32_t p = 0; p < size(); ++p) {
     if (states_[p] == FanState::duplicate) duplicates_.insert({place_of(positions_[p]), p});
   }
   return {};
+}
+
+/// The active points, of those in one place the first, rising.
+std::vector<std::uint32_t> FanCloud::first_in_place() const {
+  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+  std::vector<Vec3f> there = positions_;
+  for (std::uint32_t p = 0; p < size(); ++p) {
+    if (!active(p)) there[p] = {kNowhere, kNowhere, kNowhere};
+  }
+  std::vector<std::uint32_t> first = order_along_curve(there);
+  std::sort(first.begin(), first.end());
+  return first;
 }
 
 PointOctree& FanCloud::octree() {
@@ -238,8 +257,8 @@ void FanCloud::renew_fans_around(const Vec3f& place) {
   std::vector<std::uint32_t> touched;
   octree().reaching(place, touched);
   FanBuilder builder(params_,
-                     [this](const Vec3f& p, std::size_t count, std::vector<Neighbour>& found) {
-                       octree_->nearest(p, count, found);
+                     [this](std::uint32_t p, std::size_t count, std::vector<Neighbour>& found) {
+                       octree_->nearest(positions_[p], count, found);
                      });
   for (const std::uint32_t p : touched) {
     const Fan& fan = builder.build(p, points());

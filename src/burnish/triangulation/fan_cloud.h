@@ -71,6 +71,7 @@ class FanCloud {
   FanCloud() = default;
 
   Result<void> build_all(const Context& context);
+  std::vector<std::uint32_t> first_in_place() const;
   OrientedPoints points() const { return {positions_, normals_}; }
   Result<void> check_index(std::uint32_t p) const;
   PointOctree& octree();
