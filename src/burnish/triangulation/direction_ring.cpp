@@ -47,18 +47,23 @@ void DirectionRing::insert(double x, double y, std::uint32_t point) {
 }
 
 bool DirectionRing::in_gap(double x, double y) const {
-  if (directions_.empty()) return true;
-  const std::size_t before = last_before(turn_of(x, y));
-  return to_next(before) > directions_[before].widest;
+  return directions_.empty() || gap_after(last_before(turn_of(x, y)));
 }
 
-bool DirectionRing::gap_between(std::size_t from, std::size_t to) const {
-  std::size_t i = from;
-  do {
-    if (to_next(i) > directions_[i].widest) return true;
-    i = i + 1 < directions_.size() ? i + 1 : 0;
-  } while (i != to);
+bool DirectionRing::apart(std::size_t from, std::size_t to) const {
+  const double turn = turn_between(directions_[from].turn, directions_[to].turn);
+  if (from == to || turn > kHalfTurn - kSame) return true;
+  for (std::size_t i = from; i != to; i = next(i)) {
+    if (gap_after(i)) return true;
+  }
   return false;
+}
+
+bool DirectionRing::any_gap() const {
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    if (gap_after(i)) return true;
+  }
+  return directions_.empty();
 }
 
 }  // namespace burnish

@@ -21,10 +21,11 @@ class DirectionRing {
   /// Whether (x, y) lies in a gap. An empty ring is one.
   bool in_gap(double x, double y) const;
 
-  /// Whether there is a gap on the way from direction number `from` counter-clockwise to number
-  /// `to`; all around where these are the same.
-  bool gap_between(std::size_t from, std::size_t to) const;
-  bool any_gap() const { return directions_.empty() || gap_between(0, 0); }
+  /// Whether something of a gap lies between direction number `from` and, counter-clockwise,
+  /// number `to`, or half a turn or more.
+  bool apart(std::size_t from, std::size_t to) const;
+  /// Whether there is a gap anywhere.
+  bool any_gap() const;
 
   std::size_t size() const { return directions_.size(); }
   std::uint32_t point(std::size_t i) const { return directions_[i].point; }
@@ -36,7 +37,9 @@ class DirectionRing {
     std::uint32_t point;
   };
   std::size_t last_before(double turn) const;
+  std::size_t next(std::size_t i) const { return i + 1 < directions_.size() ? i + 1 : 0; }
   double to_next(std::size_t i) const;
+  bool gap_after(std::size_t i) const { return to_next(i) > directions_[i].widest; }
 
   std::vector<Direction> directions_;
   double cos_, sin_;

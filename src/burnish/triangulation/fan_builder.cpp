@@ -141,7 +141,7 @@ void FanBuilder::write_rim() {
   gaps_.resize(count);
   std::size_t start = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    gaps_[i] = ring_.gap_between(rim_[i], rim_[i + 1 < count ? i + 1 : 0]);
+    gaps_[i] = ring_.apart(rim_[i], rim_[i + 1 < count ? i + 1 : 0]);
     if (ring_.point(rim_[i]) < ring_.point(rim_[start])) start = i;
   }
   const auto gap = std::find(gaps_.begin(), gaps_.end(), true);
