@@ -17,7 +17,7 @@ constexpr double kFoldPenalty = 8;
 
 /// The boundary loops of three to `max_edges` different vertices, each from its smallest corner,
 /// with the gap on the left.
-std::vector<Loop> small_loops(const ManifoldSurface& surface, std::size_t max_edges) {
+std::vector<Loop> small_loops(ManifoldSurface& surface, std::size_t max_edges) {
   const std::vector<Corner> corners = surface.corners();
   std::vector<std::uint32_t> first(surface.vertex_count() + 1, 0);
   for (const Corner& corner : corners) ++first[corner.vertex + 1];
