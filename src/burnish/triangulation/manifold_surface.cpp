@@ -94,6 +94,18 @@ bool ManifoldSurface::overlaps_at(std::uint32_t v, std::uint32_t begin, std::uin
   return overlap;
 }
 
+bool ManifoldSurface::is_larger(std::uint32_t v, std::size_t count) const {
+  std::vector<std::uint32_t> reached{v};
+  for (std::size_t i = 0; i < reached.size() && reached.size() <= count; ++i) {
+    for_each_link_edge(reached[i], [&](const LinkEdge& link) {
+      for (const std::uint32_t w : {link.begin, link.end}) {
+        if (std::find(reached.begin(), reached.end(), w) == reached.end()) reached.push_back(w);
+      }
+    });
+  }
+  return reached.size() > count;
+}
+
 void ManifoldSurface::remove(std::uint32_t triangle) {
   Triangle& t = triangles_[triangle];
   suspect(t);

@@ -41,6 +41,9 @@ class ManifoldSurface {
   /// Whether `v` is a corner of a triangle.
   bool uses(std::uint32_t v) const { return first_corner_[v] != kNone; }
 
+  /// Whether more than `count` vertices hang together with `v`, itself among them. O(count).
+  bool is_larger(std::uint32_t v, std::size_t count) const;
+
   void remove(std::uint32_t triangle);
 
   /// Whether some triangle has the edge from a to b in this direction.
