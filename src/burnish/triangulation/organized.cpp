@@ -33,6 +33,7 @@ class SquareMesh {
     return complete;
   }
 
+  /// The points that are a corner of a triangle.
   UsedPoints number_points() const {
     const std::size_t count = cloud_.positions.size();
     UsedPoints used;
@@ -40,11 +41,10 @@ class SquareMesh {
     used.points.resize(count);
     std::uint32_t next = 0;
     for (std::uint32_t p = 0; p < count; ++p) {
-      // The four squares that a pixel is a corner of; there is none right of the last column.
-      const Square* square = squares_.data() + p + width_ + 1;
-      const auto left_above = static_cast<std::ptrdiff_t>(width_) + 1;
-      const bool is_used = ((square[0] & kA) | (square[-1] & kB) | (square[1 - left_above] & kC) |
-                            (square[-left_above] & kD)) != 0;
+      const Square* square = &squares_[p + width_ + 1];
+      const Square* above = square - width_;
+      const bool is_used =
+          ((square[0] & kA) | (square[-1] & kB) | (above[0] & kC) | (above[-1] & kD)) != 0;
       used.number[p] = next;
       used.points[next] = p;
       next += is_used;
