@@ -127,12 +127,68 @@ TEST(TriangulateOrganized, TakesTheShorterDiagonalAndTheFirstOfEqualOnes) {
 }
 
 TEST(TriangulateOrganized, TakesImagesOfOneRowOneColumnAndNothing) {
-  for (const GridSize size : {GridSize{0, 0}, GridSize{1, 1}, GridSize{7, 1}, GridSize{1, 7}}) {
+  for (const GridSize size : {GridSize{0, 0}, GridSize{1, 1}, GridSize{7, 1}, GridSize{1, 7},
+                              GridSize{0, 3}, GridSize{3, 0}}) {
     const auto result = triangulate_organized(
         image(size.width, size.height, .001f, [](auto, auto) { return 1.0; }));
     ASSERT_TRUE(result);
     EXPECT_TRUE(result->mesh.triangles.empty());
     EXPECT_EQ(result->report.unused_points, std::size_t{size.width} * size.height);
+  }
+}
+
+/// The rule of organized.h word for word, one edge at a time; indices of pixels.
+std::vector<Triangle> by_definition(const PointCloud& cloud, const OrganizedParams& params) {
+  const auto joined = [&](std::uint32_t a, std::uint32_t b) {
+    const Vec3d p(cloud.positions[a]), q(cloud.positions[b]);
+    if (!is_finite(p) || !is_finite(q)) return false;
+    const double step = std::abs(norm(p - *cloud.viewpoint) - norm(q - *cloud.viewpoint));
+    const double sigma = std::hypot(cloud.attributes.sigma[a], cloud.attributes.sigma[b]);
+    return step <= params.max_jump * sigma || step <= std::sin(params.max_angle) * norm(p - q);
+  };
+  const auto length = [&](std::uint32_t a, std::uint32_t b) {
+    return squared_norm(Vec3d(cloud.positions[a]) - Vec3d(cloud.positions[b]));
+  };
+  std::vector<Triangle> triangles;
+  const auto add = [&](const Triangle& t) {
+    if (joined(t[0], t[1]) && joined(t[1], t[2]) && joined(t[2], t[0])) triangles.push_back(t);
+  };
+  const std::uint32_t width = cloud.grid->width;
+  for (std::uint32_t a = 0; a + width < cloud.positions.size(); ++a) {
+    const std::uint32_t b = a + 1, c = a + width, d = c + 1;
+    if (b % width == 0) continue;
+    const auto makes = [&](std::uint32_t p, std::uint32_t q) {  // a diagonal and a triangle with it
+      const auto beside = [&](std::uint32_t r) { return joined(p, r) && joined(r, q); };
+      const bool rises = p == b;
+      return joined(p, q) && (beside(rises ? a : b) || beside(rises ? d : c));
+    };
+    const bool falls = makes(a, d), rises = makes(b, c);
+    if (falls && (!rises || length(a, d) <= length(b, c))) {
+      add({a, c, d});
+      add({a, d, b});
+    } else if (rises) {
+      add({a, c, b});
+      add({b, c, d});
+    }
+  }
+  return triangles;
+}
+
+TEST(TriangulateOrganized, CutsWhatTheRuleCutsAndNothingElse) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    const PointCloud cloud = image(37, 50, .004f, [&](auto column, auto) {
+      return random.below(10) == 0 ? double{kNan}
+                                   : 1 + .02 * random.normal() + (column > 20 ? .1 : 0);
+    });
+    const OrganizedParams params{.max_jump = 1.5, .max_angle = 1.4};
+    const auto expected = by_definition(cloud, params);
+    const TriangleMesh mesh = triangulate_organized(cloud, params)->mesh;
+    ASSERT_EQ(mesh.triangles.size(), expected.size());
+    for (std::size_t t = 0; t < expected.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(mesh.positions[mesh.triangles[t][k]], cloud.positions[expected[t][k]]);
+    }
   }
 }
 

@@ -28,7 +28,7 @@ Result<void> check_lengths(const Attributes& attributes, std::size_t count) {
   return {};
 }
 
-Attributes gather(const Attributes& attributes, std::span<const std::uint32_t> kept) {
+Attributes gather(const Attributes& attributes, const Selection& kept) {
   Attributes result{gather(attributes.normals, kept), gather(attributes.colors, kept),
                     gather(attributes.sigma, kept),   gather(attributes.observations, kept),
                     gather(attributes.origin, kept),  {}};

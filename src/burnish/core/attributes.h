@@ -2,13 +2,13 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "burnish/base/result.h"
 #include "burnish/base/vec3.h"
+#include "burnish/core/gather.h"
 
 namespace burnish {
 
@@ -49,6 +49,6 @@ struct Attributes {
 Result<void> check_lengths(const Attributes& attributes, std::size_t count);
 
 /// The attributes of the elements `kept`, in that order; indices may repeat.
-Attributes gather(const Attributes& attributes, std::span<const std::uint32_t> kept);
+Attributes gather(const Attributes& attributes, const Selection& kept);
 
 }  // namespace burnish

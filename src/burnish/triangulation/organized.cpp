@@ -1,100 +1,128 @@
 #include "burnish/triangulation/organized.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 
 #include "burnish/base/parallel.h"
+#include "burnish/triangulation/pixel_squares.h"
 #include "burnish/triangulation/used_points.h"
 
 namespace burnish {
 namespace {
 
-constexpr std::size_t kRowsAtOnce = 8;
+constexpr std::size_t kRowsAtOnce = 16;
 
-/// What the cutting of edges needs of a pixel. `range` is NaN where nothing was measured, so that
-/// every comparison with it fails.
-struct Pixel {
-  double range, variance;
-};
-
-class Squares {
+/// The squares of an image; square i has pixel i in its corner a.
+class SquareMesh {
  public:
-  Squares(const PointCloud& cloud, const OrganizedParams& params)
-      : positions_(cloud.positions),
-        sigma_(cloud.attributes.sigma),
-        viewpoint_(cloud.viewpoint.value_or(Vec3d{}) - cloud.frame.origin),
+  explicit SquareMesh(const PointCloud& cloud)
+      : cloud_(cloud),
         width_(cloud.grid->width),
-        squared_jump_(params.max_jump * params.max_jump),
-        squared_sine_(std::pow(std::sin(params.max_angle), 2)),
-        assumed_noise_(params.assumed_noise),
-        pixels_(cloud.positions.size()) {}
+        rows_(cloud.positions.empty() ? 0 : cloud.grid->height - 1),
+        squares_(cloud.positions.size() + width_ + 1) {}
 
-  void measure_row(std::size_t row) {
-    for (std::size_t i = row * width_; i < (row + 1) * width_; ++i) {
-      const double range = norm(Vec3d(positions_[i]) - viewpoint_);
-      const double sigma = sigma_.empty() ? assumed_noise_ * range * range : double{sigma_[i]};
-      pixels_[i] = {is_finite(positions_[i]) ? range : std::numeric_limits<double>::quiet_NaN(),
-                    sigma * sigma};
-    }
+  /// Returns false where cancelled.
+  bool judge(const OrganizedParams& params, const Context& context) {
+    const std::span<Square> squares = std::span(squares_).subspan(width_ + 1);
+    const bool complete = parallel_for(
+        context, rows_, [&](IndexRange rows) { SquareJudge(cloud_, params).judge(rows, squares); },
+        kRowsAtOnce);
+    for (const Square square : squares_)
+      triangle_count_ += (square != 0) + ((square & kAll) == kAll);
+    return complete;
   }
 
-  /// The triangles between `row` and the next one, counter-clockwise on an image whose rows run
-  /// down.
-  void triangulate_row(std::size_t row, std::vector<Triangle>& triangles) const {
-    for (std::size_t column = 0; column + 1 < width_; ++column) {
-      const auto a = static_cast<std::uint32_t>(row * width_ + column);
-      const auto c = static_cast<std::uint32_t>(a + width_);
-      const std::uint32_t b = a + 1, d = c + 1;
-      // Corners in a ring: a above c, b above d.
-      const bool ac = joined(a, c), cd = joined(c, d), db = joined(d, b), ba = joined(b, a);
-      const bool ad_wanted = (ac && cd) || (db && ba), bc_wanted = (ba && ac) || (cd && db);
-      const bool ad = ad_wanted && joined(a, d), bc = bc_wanted && joined(b, c);
-      if (ad && (!bc || squared_length(a, d) <= squared_length(b, c))) {
-        if (ac && cd) triangles.push_back({a, c, d});
-        if (db && ba) triangles.push_back({a, d, b});
-      } else if (bc) {
-        if (ba && ac) triangles.push_back({a, c, b});
-        if (cd && db) triangles.push_back({b, c, d});
+  /// The points that are a corner of a triangle.
+  UsedPoints number_points() const {
+    const std::size_t count = cloud_.positions.size();
+    UsedPoints used;
+    used.number.resize(count);
+    used.points.resize(count);
+    std::uint32_t next = 0;
+    for (std::uint32_t p = 0; p < count; ++p) {
+      const Square* square = &squares_[p + width_ + 1];
+      const Square* above = square - width_;
+      const bool is_used =
+          ((square[0] & kA) | (square[-1] & kB) | (above[0] & kC) | (above[-1] & kD)) != 0;
+      used.number[p] = next;
+      used.points[next] = p;
+      next += is_used;
+    }
+    used.points.resize(next);
+    return used;
+  }
+
+  /// The triangles with their new numbers, all facing the viewpoint. Returns false where cancelled.
+  bool list(const std::vector<std::uint32_t>& number, const Context& context,
+            std::vector<Triangle>& triangles) const {
+    const bool mirrored = is_mirror_image();
+    triangles.reserve(triangle_count_);
+    std::vector<Triangle> of_row(2 * width_);
+    for (std::size_t row = 0; row < rows_; ++row) {
+      Triangle* next = of_row.data();
+      for (std::size_t i = row * width_; i < (row + 1) * width_; ++i) {
+        if (at(i) == 0) continue;
+        next += put_triangles(at(i), number[i], number[i + 1], number[i + width_],
+                              number[i + width_ + 1], next);
       }
+      if (mirrored) {
+        for (Triangle* t = of_row.data(); t != next; ++t) std::swap((*t)[1], (*t)[2]);
+      }
+      triangles.insert(triangles.end(), of_row.data(), next);
+      if (context.cancelled()) return false;
     }
-  }
-
-  /// Positive where `t` is counter-clockwise seen from the viewpoint.
-  double side(const Triangle& t) const {
-    const Vec3d a = Vec3d(positions_[t[0]]) - viewpoint_;
-    const Vec3d b = Vec3d(positions_[t[1]]) - viewpoint_;
-    const Vec3d c = Vec3d(positions_[t[2]]) - viewpoint_;
-    return -dot(a, cross(b, c));
+    context.progress(1);
+    return true;
   }
 
  private:
-  double squared_length(std::uint32_t a, std::uint32_t b) const {
-    return squared_norm(Vec3d(positions_[a]) - Vec3d(positions_[b]));
+  /// Puts the triangles of a square to `out`, which has room for two, counter-clockwise on an image
+  /// whose rows run down, the one left of the diagonal first. Returns how many.
+  static std::size_t put_triangles(Square square, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                   std::uint32_t d, Triangle* out) {
+    const bool rising = (square & kRising) != 0;
+    const bool has_left = (square & (rising ? kA : kC)) != 0;
+    const bool has_right = (square & (rising ? kD : kB)) != 0;
+    out[0] = {a, c, rising ? b : d};
+    out[has_left] = {rising ? b : a, rising ? c : d, rising ? d : b};
+    return static_cast<std::size_t>(has_left) + has_right;
   }
 
-  bool joined(std::uint32_t a, std::uint32_t b) const {
-    const double step = pixels_[a].range - pixels_[b].range;
-    if (step * step <= squared_jump_ * (pixels_[a].variance + pixels_[b].variance)) return true;
-    return step * step <= squared_sine_ * squared_length(a, b);
+  Square at(std::size_t i) const { return squares_[i + width_ + 1]; }
+
+  /// Positive where `t` is counter-clockwise seen from the viewpoint.
+  double side(const Triangle& t) const {
+    const Vec3d viewpoint = cloud_.viewpoint.value_or(Vec3d{}) - cloud_.frame.origin;
+    const Vec3d a = Vec3d(cloud_.positions[t[0]]) - viewpoint;
+    const Vec3d b = Vec3d(cloud_.positions[t[1]]) - viewpoint;
+    const Vec3d c = Vec3d(cloud_.positions[t[2]]) - viewpoint;
+    return -dot(a, cross(b, c));
   }
 
-  const std::vector<Vec3f>& positions_;
-  const std::vector<float>& sigma_;
-  Vec3d viewpoint_;
+  /// The grid may be a mirror image (a flipped recording). One vote, of a thousand squares from
+  /// everywhere, decides for all triangles, so that they stay oriented alike.
+  bool is_mirror_image() const {
+    const std::size_t stride = 1 + triangle_count_ / 1024;
+    std::int64_t facing = 0;
+    std::size_t until_vote = 0;
+    for (std::uint32_t i = 0; i < rows_ * width_; ++i) {
+      if (at(i) == 0 || until_vote-- > 0) continue;
+      until_vote = stride;
+      const auto below = i + static_cast<std::uint32_t>(width_);
+      std::array<Triangle, 2> triangles;
+      put_triangles(at(i), i, i + 1, below, below + 1, triangles.data());
+      facing += side(triangles[0]) >= 0 ? 1 : -1;
+    }
+    return facing < 0;
+  }
+
+  const PointCloud& cloud_;
   std::size_t width_;
-  double squared_jump_, squared_sine_, assumed_noise_;
-  std::vector<Pixel> pixels_;
+  std::size_t rows_;             ///< of squares
+  std::vector<Square> squares_;  ///< after a row of none; the last pixels of rows have none either
+  std::size_t triangle_count_ = 0;
 };
-
-/// The grid may be a mirror image (a flipped recording); one vote decides for all triangles, so
-/// that they stay oriented alike.
-void face_the_viewpoint(std::vector<Triangle>& triangles, const Squares& squares) {
-  std::int64_t facing = 0;
-  for (const Triangle& t : triangles) facing += squares.side(t) >= 0 ? 1 : -1;
-  if (facing >= 0) return;
-  for (Triangle& t : triangles) std::swap(t[1], t[2]);
-}
 
 }  // namespace
 
@@ -121,35 +149,12 @@ Result<Triangulation> triangulate_organized(const PointCloud& cloud, const Organ
                  "the cloud is not organized: it has no image grid to triangulate",
                  {}};
   }
-  const std::size_t height = cloud.grid->height;
-  Squares squares(cloud, params);
-  const bool measured = parallel_for(
-      context.part(0, 0.2), height,
-      [&](IndexRange rows) {
-        for (std::size_t row = rows.begin; row < rows.end; ++row) squares.measure_row(row);
-      },
-      kRowsAtOnce);
-  if (!measured) return cancelled();
-
-  std::vector<std::vector<Triangle>> of_row(height > 0 ? height - 1 : 0);
-  const bool complete = parallel_for(
-      context.part(0.2, 0.8), of_row.size(),
-      [&](IndexRange rows) {
-        for (std::size_t row = rows.begin; row < rows.end; ++row) {
-          of_row[row].reserve(2 * cloud.grid->width);
-          squares.triangulate_row(row, of_row[row]);
-        }
-      },
-      kRowsAtOnce);
-  if (!complete) return cancelled();
-
-  std::size_t count = 0;
-  for (const auto& row : of_row) count += row.size();
+  SquareMesh mesh(cloud);
+  if (!mesh.judge(params, context.part(0, 0.6))) return cancelled();
+  const UsedPoints used = mesh.number_points();
   std::vector<Triangle> triangles;
-  triangles.reserve(count);
-  for (const auto& row : of_row) triangles.insert(triangles.end(), row.begin(), row.end());
-  face_the_viewpoint(triangles, squares);
-  Triangulation result = mesh_of_used_points(cloud, std::move(triangles));
+  if (!mesh.list(used.number, context.part(0.6, 0.9), triangles)) return cancelled();
+  Triangulation result = mesh_of(cloud, used, std::move(triangles));
   context.progress(1);
   return result;
 }
