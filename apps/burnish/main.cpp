@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <new>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -88,6 +89,8 @@ int main(int count, char** words) {
     return burnish::app::run(count, words);
   } catch (const std::bad_alloc&) {
     return burnish::app::fail({burnish::ErrorCode::out_of_memory, "not enough memory", {}});
+  } catch (const std::system_error& error) {  // fmt could not write to a stream
+    return burnish::app::fail({burnish::ErrorCode::io_failure, error.what(), {}});
   } catch (const std::exception& error) {
     fmt::print(stderr, "burnish: {}\n", error.what());
     return 1;

@@ -166,6 +166,17 @@ TEST(Program, SaysWhatAReaderLeftOut) {
       << outcome.out;
 }
 
+TEST(Program, ReproducesTable1OnShapesWithoutData) {
+  const TemporaryFolder empty;
+  const Outcome outcome = burnish({"reproduce", "table1", "--rounds", "1", "--data", empty.path()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* part :
+       {"generated", "69451", "Global triangulation", "fan_cloud", "not confirmed"})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << "\n" << outcome.out;
+  EXPECT_NE(burnish({"reproduce", "figure6", "--rounds", "2"}).status, 0);
+  EXPECT_NE(burnish({"reproduce", "table1", "--data", "/no/such/folder"}).status, 0);
+}
+
 TEST(Program, QuietPrintsNothing) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "box.ply", make_box()));

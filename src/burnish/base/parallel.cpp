@@ -56,16 +56,19 @@ bool parallel_for(const Context& context, std::size_t count,
   std::atomic<std::size_t> done{0};
   std::atomic<bool> stopped{false};
 
+  // oneTBB orders the caller's work before all chunks and these before what follows.
+  // ThreadSanitizer does not see that in a library built without it: `stopped` and `done` say it
+  // once more.
+  stopped.store(false, std::memory_order_release);
   const auto run_chunk = [&](std::size_t i) {
-    if (stopped.load(std::memory_order_relaxed) || context.cancelled()) {
-      stopped = true;
+    if (stopped.load(std::memory_order_acquire) || context.cancelled()) {
+      stopped.store(true, std::memory_order_release);
       return;
     }
     body(chunks[i]);
-    const std::size_t now = ++done;
-    if (std::this_thread::get_id() == caller) {
-      context.progress(static_cast<double>(now) / static_cast<double>(total));
-    }
+    const bool reports = std::this_thread::get_id() == caller;
+    const std::size_t now = done.fetch_add(1, std::memory_order_release) + 1;
+    if (reports) context.progress(static_cast<double>(now) / static_cast<double>(total));
   };
 
   const int threads = total > 1 ? thread_count(context) : 1;
@@ -81,7 +84,8 @@ bool parallel_for(const Context& context, std::size_t count,
     tbb::task_arena arena(threads);
     arena.execute([&] { tbb::parallel_for(std::size_t{0}, total, run_chunk); });
   }
-  if (stopped || context.cancelled()) return false;
+  const bool all_done = done.load(std::memory_order_acquire) == total;
+  if (!all_done || context.cancelled()) return false;
   context.progress(1);
   return true;
 }
