@@ -1,0 +1,183 @@
+#include <cmath>
+#include <cstdio>
+
+#include <string>
+#include <unordered_map>
+
+#include "burnish/base/random.h"
+#include "burnish/io/geometry_file.h"
+#include "burnish/measure/surface_samples.h"
+#include "burnish/pipeline/phases.h"
+#include "burnish/pipeline/recipe.h"
+#include "burnish/pipeline/scans.h"
+#include "burnish/shapes/shapes.h"
+
+// Points to triangulate, and the surface that they lie on:
+//   burnish_benchmark_inputs points MESH|SHAPE POINTS TRUTH                the vertices of a mesh
+//   burnish_benchmark_inputs sample MESH|SHAPE COUNT NOISE POINTS TRUTH    points spread over it
+//   burnish_benchmark_inputs merge FOLDER POINTS TRUTH     depth frames with poses, cleaned and merged
+// NOISE is the standard deviation of each coordinate in spacings, sqrt(area / COUNT). TRUTH of merged
+// frames is all that every frame sees by itself, one surface upon the other. Prints the spacing, m.
+namespace burnish {
+namespace {
+
+[[noreturn]] void fail(const Error& error) {
+  std::fprintf(stderr, "%s: %s\n", error.where.c_str(), error.message.c_str());
+  std::exit(1);
+}
+
+template <class T>
+T required(Result<T> result) {
+  if (!result) fail(result.error());
+  if constexpr (!std::is_void_v<T>) return *std::move(result);
+}
+
+/// A mesh by its file or by the name of its shape; only what a surface is made of.
+TriangleMesh surface_called(const std::string& name) {
+  Result<TriangleMesh> shape = make_shape(name);
+  TriangleMesh mesh = shape ? *std::move(shape) : required(read_mesh(name));
+  mesh.attributes = {};
+  return mesh;
+}
+
+double spacing_of(const TriangleMesh& truth, std::size_t count) {
+  return std::sqrt(surface_area(truth) / static_cast<double>(count));
+}
+
+/// The cells, `width` wide, around a point, as one number each.
+template <class Visit>
+void visit_cells_around(const Vec3d& p, double width, Visit visit) {
+  const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / width)); };
+  for (std::int64_t z = cell(p.z) - 1; z <= cell(p.z) + 1; ++z) {
+    for (std::int64_t y = cell(p.y) - 1; y <= cell(p.y) + 1; ++y) {
+      for (std::int64_t x = cell(p.x) - 1; x <= cell(p.x) + 1; ++x) {
+        visit((z * 2097152 + y) * 2097152 + x);
+      }
+    }
+  }
+}
+
+/// `count` points spread over the surface such that none is nearer to another than 0.7 spacings
+/// (by throwing darts, Cook 1986), as scans and merged scans are; in the order of its triangles,
+/// which is as local as that of a scan.
+std::vector<Vec3d> spread_over(const TriangleMesh& surface, std::size_t count) {
+  std::vector<SurfaceSample> darts = surface_samples(surface, 6 * count);
+  Random random(2);
+  for (std::size_t i = darts.size(); i > 1; --i) std::swap(darts[i - 1], darts[random.below(i)]);
+  const double apart = 0.7 * spacing_of(surface, count);
+  std::unordered_map<std::int64_t, std::vector<Vec3d>> cells;
+  std::vector<SurfaceSample> kept;
+  for (const SurfaceSample& dart : darts) {
+    if (kept.size() == count) break;
+    bool free = true;
+    std::int64_t own = 0, visited = 0;
+    visit_cells_around(dart.point, apart, [&](std::int64_t cell) {
+      if (visited++ == 13) own = cell;  // the middle one of 27
+      const auto found = cells.find(cell);
+      if (found == cells.end()) return;
+      for (const Vec3d& q : found->second) free &= squared_norm(q - dart.point) >= apart * apart;
+    });
+    if (!free) continue;
+    cells[own].push_back(dart.point);
+    kept.push_back(dart);
+  }
+  std::stable_sort(kept.begin(), kept.end(),
+                   [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
+  std::vector<Vec3d> points;
+  for (const SurfaceSample& sample : kept) points.push_back(sample.point);
+  return points;
+}
+
+/// The surfaces that every organized cloud sees by itself, as one mesh.
+void append(TriangleMesh& all, const TriangleMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(all.positions.size());
+  const Vec3d shift = mesh.frame.origin - all.frame.origin;
+  for (const Vec3f& p : mesh.positions) all.positions.push_back(Vec3f(Vec3d(p) + shift));
+  for (const auto& [a, b, c] : mesh.triangles) {
+    all.triangles.push_back({a + first, b + first, c + first});
+  }
+}
+
+/// Every second pixel of every second row.
+PointCloud halved(const PointCloud& cloud) {
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t row = 0; row + 1 < cloud.grid->height; row += 2) {
+    for (std::uint32_t column = 0; column + 1 < cloud.grid->width; column += 2) {
+      kept.push_back(row * cloud.grid->width + column);
+    }
+  }
+  PointCloud half = select(cloud, kept);
+  half.grid = GridSize{cloud.grid->width / 2, cloud.grid->height / 2};
+  half.viewpoint = cloud.viewpoint;
+  return half;
+}
+
+struct Input {
+  PointCloud points;
+  TriangleMesh truth;
+};
+
+Input vertices(const std::string& name) {
+  TriangleMesh truth = surface_called(name);
+  PointCloud cloud;
+  cloud.positions = truth.positions;
+  cloud.frame = truth.frame;
+  return {std::move(cloud), std::move(truth)};
+}
+
+Input sampled(const std::string& name, std::size_t count, double noise) {
+  TriangleMesh truth = surface_called(name);
+  PointCloud cloud;
+  cloud.frame = truth.frame;
+  const double sigma = noise * spacing_of(truth, count);
+  const std::vector<Vec3d> points = spread_over(truth, count);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Random random(3, i);
+    Vec3d p = points[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] += sigma * random.normal();
+    cloud.positions.push_back(Vec3f(p));
+  }
+  return {std::move(cloud), std::move(truth)};
+}
+
+/// What `burnish reconstruct` triangulates.
+Input merged(const std::string& folder) {
+  ScanInputs inputs;
+  inputs.paths = {folder};
+  const std::unique_ptr<Scans> scans = required(open_scans(inputs));
+  const Recipe recipe;
+  Record record;
+  std::vector<PointCloud> clouds;
+  Input input;
+  for (std::size_t i = 0; i < scans->size(); ++i) {
+    PointCloud cloud = required(scans->read(i, {}));
+    required(clean_cloud(cloud, recipe.clean_scan, record, {}));
+    append(input.truth, required(triangulate_cloud(halved(cloud), {"organized", {}}, record, {})));
+    clouds.push_back(std::move(cloud));
+  }
+  input.points = required(merge_clouds(clouds, recipe.merge, record, {}));
+  required(clean_cloud(input.points, recipe.clean_merged, record, {}));
+  return input;
+}
+
+}  // namespace
+}  // namespace burnish
+
+int main(int argc, char** argv) {
+  using namespace burnish;
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  Input input;
+  if (words.size() == 4 && words[0] == "points") {
+    input = vertices(words[1]);
+  } else if (words.size() == 6 && words[0] == "sample") {
+    input = sampled(words[1], std::stoul(words[2]), std::stod(words[3]));
+  } else if (words.size() == 4 && words[0] == "merge") {
+    input = merged(words[1]);
+  } else {
+    std::fprintf(stderr, "usage: see the head of the source\n");
+    return 2;
+  }
+  required(write_cloud(words[words.size() - 2], input.points));
+  required(write_mesh(words.back(), input.truth));
+  std::printf("%.9g\n", spacing_of(input.truth, input.points.positions.size()));
+}
