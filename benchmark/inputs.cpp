@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include <numbers>
 #include <string>
 #include <unordered_map>
 
@@ -11,13 +13,16 @@
 #include "burnish/pipeline/recipe.h"
 #include "burnish/pipeline/scans.h"
 #include "burnish/shapes/shapes.h"
+#include "burnish/spatial/neighbour_grid.h"
 
 // Points to triangulate, and the surface that they lie on:
 //   burnish_benchmark_inputs points MESH|SHAPE POINTS TRUTH                the vertices of a mesh
 //   burnish_benchmark_inputs sample MESH|SHAPE COUNT NOISE POINTS TRUTH    points spread over it
-//   burnish_benchmark_inputs merge FOLDER POINTS TRUTH     depth frames with poses, cleaned and merged
-// NOISE is the standard deviation of each coordinate in spacings, sqrt(area / COUNT). TRUTH of merged
-// frames is all that every frame sees by itself, one surface upon the other. Prints the spacing, m.
+//   burnish_benchmark_inputs merge FOLDER POINTS TRUTH     depth frames with poses, cleaned and
+//   merged
+// NOISE is the standard deviation of each coordinate in spacings, sqrt(area / COUNT). TRUTH of
+// merged frames is all that every frame sees by itself, one surface upon the other. Prints the
+// spacing, m.
 namespace burnish {
 namespace {
 
@@ -112,9 +117,25 @@ PointCloud halved(const PointCloud& cloud) {
   return half;
 }
 
+/// The spacing where no area is known: the median of what each point's eighth neighbour says of how
+/// many points share how much of a plane.
+double spacing_of(const PointCloud& cloud) {
+  constexpr std::size_t kNeighbours = 8;
+  const NeighbourGrid grid(cloud.positions);
+  std::vector<double> squared;
+  std::vector<Neighbour> found;
+  for (const Vec3f& p : cloud.positions) {
+    grid.nearest(p, kNeighbours + 1, found);
+    squared.push_back(found.back().squared_distance);
+  }
+  std::nth_element(squared.begin(), squared.begin() + squared.size() / 2, squared.end());
+  return std::sqrt(std::numbers::pi / kNeighbours * squared[squared.size() / 2]);
+}
+
 struct Input {
   PointCloud points;
   TriangleMesh truth;
+  double spacing = 0;
 };
 
 Input vertices(const std::string& name) {
@@ -122,14 +143,15 @@ Input vertices(const std::string& name) {
   PointCloud cloud;
   cloud.positions = truth.positions;
   cloud.frame = truth.frame;
-  return {std::move(cloud), std::move(truth)};
+  const double spacing = spacing_of(truth, cloud.positions.size());
+  return {std::move(cloud), std::move(truth), spacing};
 }
 
 Input sampled(const std::string& name, std::size_t count, double noise) {
   TriangleMesh truth = surface_called(name);
   PointCloud cloud;
   cloud.frame = truth.frame;
-  const double sigma = noise * spacing_of(truth, count);
+  const double spacing = spacing_of(truth, count), sigma = noise * spacing;
   const std::vector<Vec3d> points = spread_over(truth, count);
   for (std::size_t i = 0; i < points.size(); ++i) {
     Random random(3, i);
@@ -137,7 +159,7 @@ Input sampled(const std::string& name, std::size_t count, double noise) {
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] += sigma * random.normal();
     cloud.positions.push_back(Vec3f(p));
   }
-  return {std::move(cloud), std::move(truth)};
+  return {std::move(cloud), std::move(truth), spacing};
 }
 
 /// What `burnish reconstruct` triangulates.
@@ -157,6 +179,7 @@ Input merged(const std::string& folder) {
   }
   input.points = required(merge_clouds(clouds, recipe.merge, record, {}));
   required(clean_cloud(input.points, recipe.clean_merged, record, {}));
+  input.spacing = spacing_of(input.points);
   return input;
 }
 
@@ -179,5 +202,5 @@ int main(int argc, char** argv) {
   }
   required(write_cloud(words[words.size() - 2], input.points));
   required(write_mesh(words.back(), input.truth));
-  std::printf("%.9g\n", spacing_of(input.truth, input.points.positions.size()));
+  std::printf("%.9g\n", input.spacing);
 }

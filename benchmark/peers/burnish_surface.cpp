@@ -5,7 +5,8 @@
 #include "burnish/catalogue/operations.h"
 #include "burnish/io/geometry_file.h"
 
-// surface_burnish IN OUT ROUNDS METHOD THREADS: as the peers do, with a method of burnish's catalogue.
+// surface_burnish IN OUT ROUNDS METHOD THREADS: as the peers do, with a method of burnish's
+// catalogue.
 int main(int argc, char** argv) {
   using namespace burnish;
   if (argc != 6) return 2;

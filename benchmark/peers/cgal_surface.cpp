@@ -4,8 +4,8 @@
 
 #include "surface_peer.h"
 
-// surface_cgal IN OUT ROUNDS: advancing front (Cohen-Steiner and Da 2004) over the Delaunay triangulation
-// of all points, with the defaults of CGAL's manual.
+// surface_cgal IN OUT ROUNDS: advancing front (Cohen-Steiner and Da 2004) over the Delaunay
+// triangulation of all points, with the defaults of CGAL's manual.
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Facets = std::vector<std::array<std::size_t, 3>>;
 
@@ -29,8 +29,7 @@ int main(int argc, char** argv) {
       [&](const Facets& facets) {
         Surface surface{positions, {}};
         for (const auto& [a, b, c] : facets) {
-          surface.triangles.push_back({static_cast<std::uint32_t>(a),
-                                       static_cast<std::uint32_t>(b),
+          surface.triangles.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
                                        static_cast<std::uint32_t>(c)});
         }
         return surface;

@@ -7,10 +7,10 @@
 #include "surface_peer.h"
 
 // surface_open3d IN OUT ROUNDS pivoting|poisson, as Open3D's tutorial on surface reconstruction
-// does: normals of 30 neighbours oriented along a minimum spanning tree (20 neighbours) where the points bring none;
-// ball pivoting with radii of 1.5, 3 and 6 mean nearest distances (the tutorial's are absolute:
-// 0.005, 0.01, 0.02, 0.04 for a bunny of 0.15 m; its text says "slightly larger than the average
-// distance between points"); Poisson at depth 9.
+// does: normals of 30 neighbours oriented along a minimum spanning tree (20 neighbours) where the
+// points bring none; ball pivoting with radii of 1.5, 3 and 6 mean nearest distances (the
+// tutorial's are absolute: 0.005, 0.01, 0.02, 0.04 for a bunny of 0.15 m; its text says "slightly
+// larger than the average distance between points"); Poisson at depth 9.
 using open3d::geometry::PointCloud;
 using open3d::geometry::TriangleMesh;
 

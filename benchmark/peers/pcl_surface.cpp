@@ -9,13 +9,14 @@
 
 #include "surface_peer.h"
 
-// surface_pcl IN OUT ROUNDS greedy|organized, as PCL's tutorials do: normals of 20 neighbours where the points
-// bring none; greedy projection (Marton, Rusu and Beetz 2009) with mu 2.5, at most 100 neighbours and the tutorial's
-// angles, and as its radius 5 mean nearest distances (the tutorial's is the absolute 0.025 for the
-// bunny); a fast mesh of an organized PCD with its adaptive cut.
+// surface_pcl IN OUT ROUNDS greedy|organized, as PCL's tutorials do: normals of 20 neighbours where
+// the points bring none; greedy projection (Marton, Rusu and Beetz 2009) with mu 2.5, at most 100
+// neighbours and the tutorial's angles, and as its radius 5 mean nearest distances (the tutorial's
+// is the absolute 0.025 for the bunny); a fast mesh of an organized PCD with its adaptive cut.
 using Cloud = pcl::PointCloud<pcl::PointNormal>;
 
-static double mean_nearest_distance(const Cloud::Ptr& cloud, const pcl::search::KdTree<pcl::PointNormal>& tree) {
+static double mean_nearest_distance(const Cloud::Ptr& cloud,
+                                    const pcl::search::KdTree<pcl::PointNormal>& tree) {
   std::vector<int> found(2);
   std::vector<float> squared(2);
   double sum = 0;
@@ -51,7 +52,8 @@ static std::vector<pcl::Vertices> greedy(const Cloud::Ptr& cloud, bool with_norm
   return polygons;
 }
 
-static Surface surface_of(std::vector<Point> positions, const std::vector<pcl::Vertices>& polygons) {
+static Surface surface_of(std::vector<Point> positions,
+                          const std::vector<pcl::Vertices>& polygons) {
   Surface surface{std::move(positions), {}};
   for (const pcl::Vertices& polygon : polygons) {
     surface.triangles.push_back({static_cast<std::uint32_t>(polygon.vertices[0]),

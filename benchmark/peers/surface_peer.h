@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
-// What all programs that make a surface from points share: reading the points, the clock, and writing the
-// mesh, so that they differ in the surface alone. No burnish in here: peers are measured without it.
+// What all programs that make a surface from points share: reading the points, the clock, and
+// writing the mesh, so that they differ in the surface alone. No burnish in here: peers are
+// measured without it.
 
 using Point = std::array<float, 3>;
 
@@ -79,9 +80,10 @@ inline void write_surface(const char* path, const Surface& surface) {
   }
 }
 
-/// PROGRAM IN OUT ROUNDS ...: reads points, builds a surface ROUNDS times, prints the seconds of each
-/// on one line and writes the last one. `prepare(points)` puts them into the library's own types
-/// before the clock starts; `build(prepared)` is what is timed; `finish(built)` gives the Surface.
+/// PROGRAM IN OUT ROUNDS ...: reads points, builds a surface ROUNDS times, prints the seconds of
+/// each on one line and writes the last one. `prepare(points)` puts them into the library's own
+/// types before the clock starts; `build(prepared)` is what is timed; `finish(built)` gives the
+/// Surface.
 template <class Prepare, class Build, class Finish>
 int run_peer(char** argv, Prepare prepare, Build build, Finish finish) {
   const Points points = read_points(argv[1]);
