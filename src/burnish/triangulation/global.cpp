@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "burnish/core/gather.h"
-#include "burnish/points/estimate_normals.h"
+#include "burnish/points/surface_normals.h"
 #include "burnish/triangulation/local_fans.h"
 #include "burnish/triangulation/manifold_surface.h"
 #include "burnish/triangulation/point_order.h"
@@ -52,6 +52,15 @@ bool insert_candidates(const std::vector<Candidate>& candidates, const Context& 
   return true;
 }
 
+/// Estimates the normals of `positions`, which are points of `cloud`.
+bool orient(const PointCloud& cloud, std::span<const Vec3f> positions,
+            const NeighbourLists& neighbours, const Context& context, std::vector<Vec3f>& normals) {
+  std::optional<Vec3d> viewpoint;
+  if (cloud.viewpoint) viewpoint = *cloud.viewpoint - cloud.frame.origin;
+  std::size_t components = 0;
+  return normals_of_surface(positions, neighbours, viewpoint, context, normals, components);
+}
+
 /// Leaves every vertex one fan, its largest. Returns false where cancelled.
 bool separate_pinched_vertices(ManifoldSurface& surface, const Context& context) {
   std::vector<std::vector<std::uint32_t>> paths;
@@ -95,42 +104,43 @@ Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalPa
 
   context.stage("ordering points");
   const std::vector<std::uint32_t> order = order_along_curve(cloud.positions);
-  const PointCloud ordered = select(cloud, order);
-  std::vector<Vec3f> normals = ordered.attributes.normals;
+  const std::vector<Vec3f> positions = gather(cloud.positions, order);
+  context.stage("finding neighbours");
+  const NeighbourGrid grid(positions);
+  NeighbourLists neighbours;
+  if (!grid.nearest_of_all(static_cast<std::size_t>(params.neighbours) + 1, context.part(0, 0.2),
+                           neighbours)) {
+    return cancelled();
+  }
   context.stage("estimating normals");
-  if (normals.empty() && !ordered.positions.empty()) {
-    PointCloud estimated = ordered;
-    if (auto done = estimate_normals(estimated, {}, context.part(0, 0.3)); !done)
-      return done.error();
-    normals = std::move(estimated.attributes.normals);
+  std::vector<Vec3f> normals = gather(cloud.attributes.normals, order);
+  if (normals.empty() && !orient(cloud, positions, neighbours, context.part(0.2, 0.4), normals)) {
+    return cancelled();
   }
 
   context.stage("building fans");
-  const NeighbourGrid grid(ordered.positions);
-  const FanRule rule{.first_neighbours = static_cast<std::size_t>(params.neighbours),
-                     .most_neighbours = static_cast<std::size_t>(
+  const FanRule rule{.most_neighbours = static_cast<std::size_t>(
                          std::max(params.most_neighbours, params.neighbours)),
                      .cos_sheet_angle = std::cos(params.sheet_angle),
                      .reach = params.max_gap};
   Fans fans;
   std::vector<Candidate> candidates;
-  if (!build_fans(ordered.positions, normals, grid, rule, context.part(0.3, 0.7), fans) ||
-      !count_votes(ordered.positions, normals, fans, params.max_gap, context.part(0.7, 0.8),
-                   candidates)) {
+  if (!build_fans(positions, normals, grid, neighbours, rule, context.part(0.4, 0.7), fans) ||
+      !count_votes(positions, normals, fans, params.max_gap, context.part(0.7, 0.8), candidates)) {
     return cancelled();
   }
 
   if (context.cancelled()) return cancelled();
   context.stage("inserting triangles");
-  ManifoldSurface surface(ordered.positions, normals);
+  ManifoldSurface surface(positions, normals);
   if (!insert_candidates(candidates, context, surface)) return cancelled();
   context.progress(0.85);
   context.stage("closing holes");
   const auto hole_edges = static_cast<std::size_t>(params.hole_edges);
   std::size_t invented = 0;
-  if (!close_small_holes(surface, ordered.positions, normals, hole_edges, context, invented) ||
+  if (!close_small_holes(surface, positions, normals, hole_edges, context, invented) ||
       !separate_pinched_vertices(surface, context) ||
-      !close_small_holes(surface, ordered.positions, normals, hole_edges, context, invented)) {
+      !close_small_holes(surface, positions, normals, hole_edges, context, invented)) {
     return cancelled();
   }
 
