@@ -7,6 +7,7 @@
 #include "burnish/smoothing/gaussian.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
+#include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/global.h"
 #include "burnish/triangulation/organized.h"
 
@@ -37,6 +38,9 @@ std::span<const TriangulateOperation> triangulate_operations() {
       creation_operation("global", triangulate_global, &Triangulation::mesh,
                          "One orientable manifold surface from what the local fans agree on.",
                          "linsen_prautzsch_2001"),
+      creation_operation("delaunay", triangulate_delaunay, &Triangulation::mesh,
+                         "The Delaunay triangulation of a projection: surfaces of one sheet.",
+                         "guibas_stolfi_1985"),
       creation_operation("organized", triangulate_organized, &Triangulation::mesh,
                          "The image grid of one frame, cut at depth jumps beyond the noise.", ""),
   };

@@ -1,15 +1,11 @@
 #include "burnish/triangulation/point_order.h"
 
 #include <algorithm>
-#include <array>
+
+#include "burnish/triangulation/key_sort.h"
 
 namespace burnish {
 namespace {
-
-struct Keyed {
-  std::uint64_t key;
-  std::uint32_t index;
-};
 
 /// Spreads the lower 21 bits of `x` to every third bit.
 std::uint64_t spread(std::uint64_t x) {
@@ -18,18 +14,6 @@ std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 8) & 0x100f00f00f00f00f;
   x = (x | x << 4) & 0x10c30c30c30c30c3;
   return (x | x << 2) & 0x1249249249249249;
-}
-
-/// Stable sort by key, 16 bits at a time.
-void sort_by_key(std::vector<Keyed>& items) {
-  std::vector<Keyed> other(items.size());
-  for (int shift = 0; shift < 64; shift += 16) {
-    std::vector<std::uint32_t> starts(65537, 0);
-    for (const Keyed& item : items) ++starts[(item.key >> shift & 0xffff) + 1];
-    for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
-    for (const Keyed& item : items) other[starts[item.key >> shift & 0xffff]++] = item;
-    items.swap(other);
-  }
 }
 
 }  // namespace
