@@ -12,17 +12,20 @@
 #include "burnish/pipeline/phases.h"
 #include "burnish/pipeline/recipe.h"
 #include "burnish/pipeline/scans.h"
+#include "burnish/points/unproject.h"
+#include "burnish/sensor/virtual_camera.h"
 #include "burnish/shapes/shapes.h"
 #include "burnish/spatial/neighbour_grid.h"
 
-// Points to triangulate, and the surface that they lie on:
-//   burnish_benchmark_inputs points MESH|SHAPE POINTS TRUTH                the vertices of a mesh
-//   burnish_benchmark_inputs sample MESH|SHAPE COUNT NOISE POINTS TRUTH    points spread over it
-//   burnish_benchmark_inputs merge FOLDER POINTS TRUTH     depth frames with poses, cleaned and
-//   merged
-// NOISE is the standard deviation of each coordinate in spacings, sqrt(area / COUNT). TRUTH of
-// merged frames is all that every frame sees by itself, one surface upon the other. Prints the
-// spacing, m.
+// burnish_benchmark_inputs MODE ... POINTS TRUTH: points to triangulate, and the surface that they
+// lie on. Prints the spacing of the points, m.
+//   points MESH|SHAPE               the vertices of a mesh
+//   sample MESH|SHAPE COUNT NOISE   points spread over it; NOISE is the standard deviation of each
+//                                   coordinate in spacings, sqrt(area / COUNT)
+//   plane COUNT                     random points of the unit square
+//   frame                           one Kinect frame of a torus in a room, POINTS a PCD
+//   merge FOLDER                    depth frames with poses, cleaned and merged; TRUTH is all that
+//                                   every frame sees by itself, one surface upon the other
 namespace burnish {
 namespace {
 
@@ -162,6 +165,31 @@ Input sampled(const std::string& name, std::size_t count, double noise) {
   return {std::move(cloud), std::move(truth), spacing};
 }
 
+Input plane(std::size_t count) {
+  Input input{{}, make_grid(1, 1), 0};
+  for (std::size_t i = 0; i < count; ++i) {
+    Random random(4, i);
+    const double x = random.uniform(), y = random.uniform();
+    input.points.positions.push_back(Vec3f(Vec3d{x, y, 0}));
+  }
+  input.spacing = spacing_of(input.truth, count);
+  return input;
+}
+
+/// Every pixel sees something: the camera stands in a room, before a torus.
+Input frame() {
+  Input input;
+  append(input.truth, make_box({4, 4, 3}, 8));
+  append(input.truth, make_torus(0.5, 0.2, 128, 64));
+  const VirtualCamera camera =
+      required(VirtualCamera::create(input.truth, required(find_sensor("kinect_v1"))));
+  const DepthFrame depth =
+      required(camera.capture(look_at({0.3, -1.7, 1.1}, {0, 0.2, 0}, {0, 0, 1})));
+  input.points = required(unproject(depth));
+  input.spacing = spacing_of(without_missing(input.points));
+  return input;
+}
+
 /// What `burnish reconstruct` triangulates.
 Input merged(const std::string& folder) {
   ScanInputs inputs;
@@ -194,6 +222,10 @@ int main(int argc, char** argv) {
     input = vertices(words[1]);
   } else if (words.size() == 6 && words[0] == "sample") {
     input = sampled(words[1], std::stoul(words[2]), std::stod(words[3]));
+  } else if (words.size() == 4 && words[0] == "plane") {
+    input = plane(std::stoul(words[1]));
+  } else if (words.size() == 3 && words[0] == "frame") {
+    input = frame();
   } else if (words.size() == 4 && words[0] == "merge") {
     input = merged(words[1]);
   } else {

@@ -6,7 +6,7 @@
 
 #include "surface_peer.h"
 
-// surface_open3d IN OUT ROUNDS pivoting|poisson, as Open3D's tutorial on surface reconstruction
+// surface_open3d IN OUT pivoting|poisson, as Open3D's tutorial on surface reconstruction
 // does: normals of 30 neighbours oriented along a minimum spanning tree (20 neighbours) where the
 // points bring none; ball pivoting with radii of 1.5, 3 and 6 mean nearest distances (the
 // tutorial's are absolute: 0.005, 0.01, 0.02, 0.04 for a bunny of 0.15 m; its text says "slightly
@@ -45,8 +45,8 @@ static Surface surface_of(const TriangleMesh& mesh) {
 }
 
 int main(int argc, char** argv) {
-  if (argc != 5) return 2;
-  const bool poisson = std::strcmp(argv[4], "poisson") == 0;
+  if (argc != 4) return 2;
+  const bool poisson = std::strcmp(argv[3], "poisson") == 0;
   const auto vectors = [](const std::vector<Point>& points) {
     std::vector<Eigen::Vector3d> result;
     for (const Point& p : points) result.emplace_back(p[0], p[1], p[2]);

@@ -9,7 +9,7 @@
 
 #include "surface_peer.h"
 
-// surface_pcl IN OUT ROUNDS greedy|organized, as PCL's tutorials do: normals of 20 neighbours where
+// surface_pcl IN OUT greedy|organized, as PCL's tutorials do: normals of 20 neighbours where
 // the points bring none; greedy projection (Marton, Rusu and Beetz 2009) with mu 2.5, at most 100
 // neighbours and the tutorial's angles, and as its radius 5 mean nearest distances (the tutorial's
 // is the absolute 0.025 for the bunny); a fast mesh of an organized PCD with its adaptive cut.
@@ -66,29 +66,24 @@ static Surface surface_of(std::vector<Point> positions,
 static int organized(char** argv) {
   const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
   if (pcl::io::loadPCDFile(argv[1], *cloud) != 0) return 1;
-  const int rounds = std::atoi(argv[3]);
-  for (int round = 0; round < rounds; ++round) {
-    const auto start = std::chrono::steady_clock::now();
-    pcl::OrganizedFastMesh<pcl::PointXYZ> mesh;
-    mesh.setTriangulationType(pcl::OrganizedFastMesh<pcl::PointXYZ>::TRIANGLE_ADAPTIVE_CUT);
-    mesh.setInputCloud(cloud);
-    std::vector<pcl::Vertices> polygons;
-    mesh.reconstruct(polygons);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    std::printf("%.6f%c", seconds.count(), round + 1 < rounds ? ' ' : '\n');
-    if (round + 1 < rounds) continue;
-    std::vector<Point> positions;
-    for (const auto& p : *cloud) {
-      positions.push_back(std::isfinite(p.z) ? Point{p.x, p.y, p.z} : Point{0, 0, 0});
-    }
-    write_surface(argv[2], surface_of(std::move(positions), polygons));
+  const Stopwatch stopwatch;
+  pcl::OrganizedFastMesh<pcl::PointXYZ> mesh;
+  mesh.setTriangulationType(pcl::OrganizedFastMesh<pcl::PointXYZ>::TRIANGLE_ADAPTIVE_CUT);
+  mesh.setInputCloud(cloud);
+  std::vector<pcl::Vertices> polygons;
+  mesh.reconstruct(polygons);
+  stopwatch.print();
+  std::vector<Point> positions;
+  for (const auto& p : *cloud) {
+    positions.push_back(std::isfinite(p.z) ? Point{p.x, p.y, p.z} : Point{0, 0, 0});
   }
+  write_surface(argv[2], surface_of(std::move(positions), polygons));
   return 0;
 }
 
 int main(int argc, char** argv) {
-  if (argc != 5) return 2;
-  if (std::strcmp(argv[4], "organized") == 0) return organized(argv);
+  if (argc != 4) return 2;
+  if (std::strcmp(argv[3], "organized") == 0) return organized(argv);
   std::vector<Point> positions;
   bool with_normals = false;
   return run_peer(

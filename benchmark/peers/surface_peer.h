@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +9,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "stopwatch.h"
 
 // What all programs that make a surface from points share: reading the points, the clock, and
 // writing the mesh, so that they differ in the surface alone. No burnish in here: peers are
@@ -80,21 +81,16 @@ inline void write_surface(const char* path, const Surface& surface) {
   }
 }
 
-/// PROGRAM IN OUT ROUNDS ...: reads points, builds a surface ROUNDS times, prints the seconds of
-/// each on one line and writes the last one. `prepare(points)` puts them into the library's own
-/// types before the clock starts; `build(prepared)` is what is timed; `finish(built)` gives the
-/// Surface.
+/// PROGRAM IN OUT ...: reads points, makes a surface of them, prints how long that took and writes
+/// it. `prepare(points)` puts them into the library's own types before the clock starts;
+/// `build(prepared)` is what is timed; `finish(built)` gives the Surface.
 template <class Prepare, class Build, class Finish>
 int run_peer(char** argv, Prepare prepare, Build build, Finish finish) {
   const Points points = read_points(argv[1]);
-  const int rounds = std::atoi(argv[3]);
-  for (int round = 0; round < rounds; ++round) {
-    auto prepared = prepare(points);
-    const auto start = std::chrono::steady_clock::now();
-    auto built = build(prepared);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    std::printf("%.6f%c", seconds.count(), round + 1 < rounds ? ' ' : '\n');
-    if (round + 1 == rounds) write_surface(argv[2], finish(built));
-  }
+  auto prepared = prepare(points);
+  const Stopwatch stopwatch;
+  auto built = build(prepared);
+  stopwatch.print();
+  write_surface(argv[2], finish(built));
   return 0;
 }
