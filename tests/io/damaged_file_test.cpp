@@ -40,6 +40,7 @@ std::string written(const std::string& extension, bool ascii) {
   const auto path = folder / ("sample" + extension);
   TriangleMesh mesh = test::any_mesh(1, 9, 12);
   mesh.attributes = test::any_attributes(1, 9);
+  mesh.triangle_attributes = test::any_triangle_attributes(1, 12, 9);
   if (extension == ".pcd") {
     PointCloud cloud{mesh.positions, mesh.attributes, GridSize{3, 3}, Vec3d{0, 0, 1}, {}};
     EXPECT_TRUE(write_cloud(path, cloud, {ascii, {}}));
@@ -75,7 +76,12 @@ std::vector<Sample> samples() {
            "y\nproperty double z\n"
            "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 "
            "1 0\n1 1 0\n"
-           "5 0 1 2 3 -1\n"}};
+           "5 0 1 2 3 -1\n"},
+          {"ply", "polygons with values",
+           "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+           "float z\nelement face 3\nproperty uchar origin\nproperty list uchar uint vertex_index\n"
+           "property uint owner\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 4 0 1 2 3 3\n"
+           "0 2 0 1 1\n1 3 0 1 2 0\n"}};
 }
 
 TEST(Truncation, AtEveryByteGivesASoundResultOrAClearError) {
@@ -221,17 +227,26 @@ TEST(Memory, StaysWithinItsBound) {
       {"short.obj", repeated("v 0 0 0\n", 2 * kRows) + repeated("f 1 2 3\n", kRows)},
       {"colors.obj", repeated("v 0 0 0 1 1 1\n", 2 * kRows)},
       {"polygons.obj", repeated("v 0 0 0\n", 10) + repeated("f 1 2 3 4 5 6 7 8 9\n", 300000)},
-      {"short.off", "OFF\n500000 250000 0\n" + repeated("0 0 0\n", 2 * kRows) +
-                        repeated("3 0 1 2\n", kRows)},
+      {"short.off",
+       "OFF\n500000 250000 0\n" + repeated("0 0 0\n", 2 * kRows) + repeated("3 0 1 2\n", kRows)},
       {"short.ply",
        vertices + "1000000" + fields + "end_header\n" + repeated("0 0 0\n", 4 * kRows)},
-      {"far.ply",
-       vertices + "750000" + fields + "end_header\n" + repeated("9e9 0 0\n", 3 * kRows)},
+      {"far.ply", vertices + "750000" + fields + "end_header\n" + repeated("9e9 0 0\n", 3 * kRows)},
       {"polygons.ply",
        "ply\nformat binary_little_endian 1.0\nelement vertex 10\nproperty char x\nproperty char y\n"
        "property char z\nelement face 600000\nproperty list uchar uchar "
        "vertex_indices\nend_header\n" +
-           std::string(30, '\0') + repeated("\x09\x01\x02\x03\x04\x05\x06\x07\x08\x09", 600000)}};
+           std::string(30, '\0') + repeated("\x09\x01\x02\x03\x04\x05\x06\x07\x08\x09", 600000)},
+      {"owned.ply",
+       "ply\nformat binary_little_endian 1.0\nelement vertex 10\nproperty char x\nproperty char y\n"
+       "property char z\nelement face 500000\nproperty list uchar uchar vertex_indices\nproperty "
+       "uchar origin\nproperty uint owner\nend_header\n" +
+           std::string(30, '\0') +
+           repeated(std::string("\x06\x01\x02\x03\x04\x05\x06\x02\x09\0\0\0", 12), 500000)},
+      {"strips.ply", vertices + "4" + fields +
+                         "element tristrips 300000\nproperty list int int vertex_indices\n"
+                         "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" +
+                         repeated("6 0 1 2 3 0 1\n", 300000)}};
   for (const auto& [name, bytes] : files) {
     const auto path = folder / name;
     std::ofstream(path, std::ios::binary) << bytes;

@@ -125,6 +125,8 @@ Result<std::vector<std::string>> losses(const FileFormat& format, const Geometry
   lose(view.framed(), holds.doubles || (options.ascii && format.has_ascii),
        "coordinates beyond float precision");
   lose(view.viewpoint.has_value(), holds.viewpoint, "the viewpoint");
+  lose(!view.triangle_origin.empty(), holds.triangle_attributes, "the origin of triangles");
+  lose(!view.triangle_owner.empty(), holds.triangle_attributes, "the owner of triangles");
   if (!holds.points) {
     std::vector<bool> used(view.positions.size());
     for (const Triangle& triangle : view.triangles) {
@@ -187,7 +189,8 @@ std::span<const FileFormat> geometry_formats() {
         .channels = true,
         .doubles = true,
         .grid = true,
-        .viewpoint = true},
+        .viewpoint = true,
+        .triangle_attributes = true},
        true,
        true,
        recognise_ply,
@@ -285,8 +288,14 @@ Result<WriteReport> write_mesh(const fs::path& path, const TriangleMesh& mesh,
   const auto format = format_to_write(path);
   if (!format) return format.error();
   if (auto sound = check(mesh); !sound) return located(sound.error(), path);
-  const GeometryView view{mesh.positions, mesh.triangles, mesh.attributes,
-                          mesh.frame,     std::nullopt,   std::nullopt};
+  const GeometryView view{mesh.positions,
+                          mesh.triangles,
+                          mesh.attributes,
+                          mesh.frame,
+                          std::nullopt,
+                          std::nullopt,
+                          mesh.triangle_attributes.origin,
+                          mesh.triangle_attributes.owner};
   return write_format(path, **format, view, options, context);
 }
 

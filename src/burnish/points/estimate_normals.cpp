@@ -21,7 +21,7 @@ Result<Estimate> unorganized(const PointCloud& cloud, const NormalParams& params
   if (cloud.viewpoint) viewpoint = viewpoint_or_origin(cloud);
   if (!grid.nearest_of_all(static_cast<std::size_t>(params.neighbours), context.part(0, 0.5),
                            neighbours) ||
-      !normals_of_surface(cloud.positions, neighbours, viewpoint, context.part(0.5, 1),
+      !normals_of_surface(cloud.positions, grid, neighbours, viewpoint, context.part(0.5, 1),
                           estimate.normals, estimate.components)) {
     return cancelled();
   }

@@ -13,6 +13,7 @@ namespace {
 
 /// Lighter links are all the same: 20 degrees between two normals.
 constexpr double kLight = 1.0 / 16;
+constexpr std::size_t kIslandNeighbours = 96;
 
 /// So many points are dealt with between two looks at whether the run was cancelled.
 constexpr std::size_t kBetweenLooks = std::size_t{1} << 16;
@@ -55,6 +56,8 @@ class OrientedSets {
     return {i, opposite != 0};
   }
 
+  std::uint32_t size(std::uint32_t root) const { return size_[root]; }
+
   void unite(const Place& a, const Place& b, bool opposite) {
     const auto [large, small] =
         size_[a.root] >= size_[b.root] ? std::pair{a.root, b.root} : std::pair{b.root, a.root};
@@ -82,16 +85,18 @@ struct Link {
 /// between points that are in one set already are never weighed, and these are nearly all.
 class SpanningTree {
  public:
-  SpanningTree(std::span<const Vec3f> positions, const NeighbourLists& neighbours,
-               const std::vector<Vec3f>& normals, const Context& context)
+  SpanningTree(std::span<const Vec3f> positions, const NeighbourGrid& grid,
+               const NeighbourLists& neighbours, const std::vector<Vec3f>& normals,
+               const Context& context)
       : positions_(positions),
+        grid_(grid),
         neighbours_(neighbours),
         normals_(normals),
         context_(context),
         sets_(normals.size()) {}
 
   /// Returns false where cancelled.
-  bool build() { return join_light() && join_heavy(); }
+  bool build() { return join_light() && join_heavy() && join_islands(); }
   OrientedSets& sets() { return sets_; }
 
  private:
@@ -100,7 +105,8 @@ class SpanningTree {
     for (std::size_t k = 0; k < neighbours_.count(); ++k) {
       for (std::uint32_t i = 0; i < normals_.size(); ++i) {
         if (i % kBetweenLooks == 0 && context_.cancelled()) return false;
-        if (auto link = link_between_sets(i, k); link && link->weight < kLight) join(*link);
+        const auto link = link_between_sets(i, neighbours_.of(i)[k]);
+        if (link && link->weight < kLight) join(*link);
       }
     }
     return true;
@@ -112,7 +118,7 @@ class SpanningTree {
     for (std::uint32_t i = 0; i < normals_.size(); ++i) {
       if (i % kBetweenLooks == 0 && context_.cancelled()) return false;
       for (std::size_t k = 0; k < neighbours_.count(); ++k) {
-        if (auto link = link_between_sets(i, k)) heavy.push_back(*link);
+        if (auto link = link_between_sets(i, neighbours_.of(i)[k])) heavy.push_back(*link);
       }
     }
     std::sort(heavy.begin(), heavy.end());
@@ -120,9 +126,34 @@ class SpanningTree {
     return !context_.cancelled();
   }
 
-  /// The link of point i and its neighbour number k, if it joins two sets.
-  std::optional<Link> link_between_sets(std::uint32_t i, std::size_t k) {
-    const std::uint32_t j = neighbours_.of(i)[k];
+  /// Where the sampling is much denser along lines than across them, all neighbours may be on the
+  /// line: what is apart from the largest set looks further for light links.
+  bool join_islands() {
+    const std::uint32_t largest = largest_set();
+    std::vector<Neighbour> found;
+    for (std::uint32_t i = 0; i < normals_.size(); ++i) {
+      if (i % kBetweenLooks == 0 && context_.cancelled()) return false;
+      if (normals_[i] == Vec3f{} || sets_.find(i).root == largest) continue;
+      grid_.nearest(positions_[i], kIslandNeighbours, found);
+      for (const Neighbour& neighbour : found) {
+        const auto link = link_between_sets(i, neighbour.index);
+        if (link && link->weight < kLight) join(*link);
+      }
+    }
+    return true;
+  }
+
+  std::uint32_t largest_set() {
+    std::uint32_t largest = 0;
+    for (std::uint32_t i = 0; i < normals_.size(); ++i) {
+      const std::uint32_t root = sets_.find(i).root;
+      if (sets_.size(root) > sets_.size(largest)) largest = root;
+    }
+    return largest;
+  }
+
+  /// The link of points i and j, if it joins two sets.
+  std::optional<Link> link_between_sets(std::uint32_t i, std::uint32_t j) {
     if (normals_[i] == Vec3f{} || normals_[j] == Vec3f{}) return {};
     if (sets_.find(i).root == sets_.find(j).root) return {};
     const std::uint32_t a = std::min(i, j), b = std::max(i, j);
@@ -135,6 +166,7 @@ class SpanningTree {
   }
 
   std::span<const Vec3f> positions_;
+  const NeighbourGrid& grid_;
   const NeighbourLists& neighbours_;
   const std::vector<Vec3f>& normals_;
   const Context& context_;
@@ -158,9 +190,10 @@ std::size_t find_tops(std::span<const Vec3f> positions, const std::vector<Vec3f>
 
 }  // namespace
 
-std::size_t orient_consistently(std::span<const Vec3f> positions, const NeighbourLists& neighbours,
-                                std::vector<Vec3f>& normals, const Context& context) {
-  SpanningTree tree(positions, neighbours, normals, context);
+std::size_t orient_consistently(std::span<const Vec3f> positions, const NeighbourGrid& grid,
+                                const NeighbourLists& neighbours, std::vector<Vec3f>& normals,
+                                const Context& context) {
+  SpanningTree tree(positions, grid, neighbours, normals, context);
   if (!tree.build()) return 0;
   std::vector<std::uint32_t> tops;
   const std::size_t components = find_tops(positions, normals, tree.sets(), tops);

@@ -10,6 +10,13 @@
 namespace burnish {
 namespace {
 
+/// Points whose second variance is a smaller part of the first are on a line.
+constexpr double kLine = 1e-6;
+/// Those of a narrow strip (one part wide, three long) do not tell a plane from a curve: more are
+/// taken, twice as many at a time.
+constexpr double kNarrow = 0.1;
+constexpr std::size_t kMostNeighbours = 96;
+
 /// A symmetric matrix: its diagonal and what is beside it.
 struct Symmetric {
   double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
@@ -50,10 +57,13 @@ double smallest_root(double b, double c) {
   return x;
 }
 
-}  // namespace
+/// How points vary around their mean.
+struct Variation {
+  Vec3d least;         ///< the direction of unit length in which they vary least; 0: no plane
+  double breadth = 0;  ///< second largest variance over the largest
+};
 
-Vec3d direction_of_least_variance(std::span<const Vec3f> positions,
-                                  std::span<const std::uint32_t> which) {
+Variation variation(std::span<const Vec3f> positions, std::span<const std::uint32_t> which) {
   if (which.size() < 3) return {};
   Symmetric m = covariance(positions, which);
   const double minors =
@@ -61,36 +71,60 @@ Vec3d direction_of_least_variance(std::span<const Vec3f> positions,
   const double determinant = m.xx * (m.yy * m.zz - m.yz * m.yz) -
                              m.xy * (m.xy * m.zz - m.yz * m.zx) +
                              m.zx * (m.xy * m.yz - m.yy * m.zx);
-  const double least = smallest_root(minors, determinant);
-  // The others: their sum is 1 - least. A line has one that is nearly 0 as well.
-  const double sum = 1 - least, product = minors - least * sum;
+  const double smallest = smallest_root(minors, determinant);
+  // The others: their sum is 1 - smallest, and their product is known.
+  const double sum = 1 - smallest, product = minors - smallest * sum;
   const double largest = (sum + std::sqrt(std::max(sum * sum - 4 * product, 0.0))) / 2;
-  if (!(sum - largest > 1e-6 * largest)) return {};
-  m.xx -= least, m.yy -= least, m.zz -= least;
+  const double breadth = (sum - largest) / largest;
+  if (!(breadth > kLine)) return {};
+  m.xx -= smallest, m.yy -= smallest, m.zz -= smallest;
   const std::array<Vec3d, 3> rows{{{m.xx, m.xy, m.zx}, {m.xy, m.yy, m.yz}, {m.zx, m.yz, m.zz}}};
   // All three are along the direction; the longest is the exactest.
   const std::array<Vec3d, 3> along{cross(rows[0], rows[1]), cross(rows[1], rows[2]),
                                    cross(rows[2], rows[0])};
-  return normalized(*std::max_element(
+  const Vec3d& best = *std::max_element(
       along.begin(), along.end(),
-      [](const Vec3d& a, const Vec3d& b) { return squared_norm(a) < squared_norm(b); }));
+      [](const Vec3d& a, const Vec3d& b) { return squared_norm(a) < squared_norm(b); });
+  return {normalized(best), breadth};
 }
 
-bool normals_of_surface(std::span<const Vec3f> positions, const NeighbourLists& neighbours,
-                        const std::optional<Vec3d>& viewpoint, const Context& context,
-                        std::vector<Vec3f>& normals, std::size_t& components) {
+/// The normals of the points [range.begin, range.end), with either sign.
+void fit_normals(IndexRange range, std::span<const Vec3f> positions, const NeighbourGrid& grid,
+                 const NeighbourLists& neighbours, std::vector<Vec3f>& normals) {
+  std::vector<Neighbour> found;
+  std::vector<std::uint32_t> more;
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    Variation fit = variation(positions, neighbours.of(i));
+    std::size_t count = neighbours.count();
+    while (fit.breadth < kNarrow && count < std::min(kMostNeighbours, positions.size())) {
+      count = std::min({2 * count, kMostNeighbours, positions.size()});
+      grid.nearest(positions[i], count, found);
+      more.clear();
+      for (const Neighbour& neighbour : found) more.push_back(neighbour.index);
+      fit = variation(positions, more);
+    }
+    normals[i] = Vec3f(fit.least);
+  }
+}
+
+}  // namespace
+
+bool normals_of_surface(std::span<const Vec3f> positions, const NeighbourGrid& grid,
+                        const NeighbourLists& neighbours, const std::optional<Vec3d>& viewpoint,
+                        const Context& context, std::vector<Vec3f>& normals,
+                        std::size_t& components) {
   normals.assign(positions.size(), {});
   components = 0;
   const bool complete = parallel_for(context.part(0, 0.7), positions.size(), [&](IndexRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      Vec3d normal = direction_of_least_variance(positions, neighbours.of(i));
-      if (viewpoint && dot(normal, *viewpoint - Vec3d(positions[i])) < 0) normal = -normal;
-      normals[i] = Vec3f(normal);
+    fit_normals(range, positions, grid, neighbours, normals);
+    for (std::size_t i = range.begin; viewpoint && i < range.end; ++i) {
+      const Vec3d towards = *viewpoint - Vec3d(positions[i]);
+      if (dot(Vec3d(normals[i]), towards) < 0) normals[i] = -normals[i];
     }
   });
   if (!complete) return false;
   if (!viewpoint) {
-    components = orient_consistently(positions, neighbours, normals, context.part(0.7, 1));
+    components = orient_consistently(positions, grid, neighbours, normals, context.part(0.7, 1));
   }
   if (context.cancelled()) return false;
   context.progress(1);

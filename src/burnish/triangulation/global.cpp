@@ -21,6 +21,9 @@ namespace {
 /// the run was cancelled.
 constexpr std::size_t kBetweenLooks = 8192;
 
+/// A hole that measured triangles surround may be wider than what a triangle bridges unasked.
+constexpr double kHoleReach = 1.5;
+
 /// Sorts what not all fans agree on to the order in which it is tried.
 void sort_doubtful(std::vector<Candidate>& doubtful) {
   std::sort(doubtful.begin(), doubtful.end(), [](const Candidate& a, const Candidate& b) {
@@ -44,21 +47,31 @@ bool insert_candidates(const std::vector<Candidate>& candidates, const Context& 
   }
   if (context.cancelled()) return false;
   sort_doubtful(doubtful);
-  for (std::size_t i = 0; i < doubtful.size(); ++i) {
-    if (i % kBetweenLooks == 0 && context.cancelled()) return false;
-    const Triangle& t = doubtful[i].triangle;
-    if (!surface.overlaps(t)) surface.add_if_manifold(t);
+  // What is not joined to the surface yet may be once others are.
+  for (bool grown = true; grown;) {
+    grown = false;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < doubtful.size(); ++i) {
+      if (i % kBetweenLooks == 0 && context.cancelled()) return false;
+      const Triangle& t = doubtful[i].triangle;
+      if (!surface.touches(t)) {
+        doubtful[kept++] = doubtful[i];
+      } else if (!surface.overlaps(t)) {
+        grown = surface.add_if_manifold(t) || grown;
+      }
+    }
+    doubtful.resize(kept);
   }
   return true;
 }
 
 /// Estimates the normals of `positions`, which are points of `cloud`.
-bool orient(const PointCloud& cloud, std::span<const Vec3f> positions,
+bool orient(const PointCloud& cloud, std::span<const Vec3f> positions, const NeighbourGrid& grid,
             const NeighbourLists& neighbours, const Context& context, std::vector<Vec3f>& normals) {
   std::optional<Vec3d> viewpoint;
   if (cloud.viewpoint) viewpoint = *cloud.viewpoint - cloud.frame.origin;
   std::size_t components = 0;
-  return normals_of_surface(positions, neighbours, viewpoint, context, normals, components);
+  return normals_of_surface(positions, grid, neighbours, viewpoint, context, normals, components);
 }
 
 /// Leaves every vertex one fan, its largest. Returns false where cancelled.
@@ -76,6 +89,21 @@ bool separate_pinched_vertices(ManifoldSurface& surface, const Context& context)
     }
   }
   return true;
+}
+
+/// The surface as a mesh of points of `cloud`, which `order` names.
+Triangulation to_mesh(const ManifoldSurface& surface, const PointCloud& cloud,
+                      const std::vector<std::uint32_t>& order) {
+  std::vector<Triangle> triangles;
+  std::vector<Origin> origin;
+  surface.triangles(triangles, origin);
+  for (Triangle& t : triangles) t = {order[t[0]], order[t[1]], order[t[2]]};
+  Triangulation result = mesh_of_used_points(cloud, std::move(triangles));
+  result.report.duplicate_points = result.report.points - order.size();
+  result.report.invented_triangles =
+      static_cast<std::size_t>(std::count(origin.begin(), origin.end(), Origin::invented));
+  result.mesh.triangle_attributes.origin = std::move(origin);
+  return result;
 }
 
 }  // namespace
@@ -114,7 +142,8 @@ Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalPa
   }
   context.stage("estimating normals");
   std::vector<Vec3f> normals = gather(cloud.attributes.normals, order);
-  if (normals.empty() && !orient(cloud, positions, neighbours, context.part(0.2, 0.4), normals)) {
+  if (normals.empty() &&
+      !orient(cloud, positions, grid, neighbours, context.part(0.2, 0.4), normals)) {
     return cancelled();
   }
 
@@ -136,19 +165,17 @@ Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalPa
   if (!insert_candidates(candidates, context, surface)) return cancelled();
   context.progress(0.85);
   context.stage("closing holes");
-  const auto hole_edges = static_cast<std::size_t>(params.hole_edges);
-  std::size_t invented = 0;
-  if (!close_small_holes(surface, positions, normals, hole_edges, context, invented) ||
-      !separate_pinched_vertices(surface, context) ||
-      !close_small_holes(surface, positions, normals, hole_edges, context, invented)) {
+  const HoleRule hole_rule{static_cast<std::size_t>(params.hole_edges),
+                           kHoleReach * params.max_gap};
+  const auto close_holes = [&] {
+    return close_small_holes(surface, positions, normals, fans, hole_rule, context);
+  };
+  if (!close_holes() || !separate_pinched_vertices(surface, context) || !close_holes()) {
     return cancelled();
   }
 
   if (context.cancelled()) return cancelled();
-  std::vector<Triangle> triangles = surface.triangles();
-  for (Triangle& t : triangles) t = {order[t[0]], order[t[1]], order[t[2]]};
-  Triangulation result = mesh_of_used_points(cloud, std::move(triangles));
-  result.report.invented_triangles = invented;
+  Triangulation result = to_mesh(surface, cloud, order);
   context.progress(1);
   return result;
 }

@@ -11,7 +11,7 @@ struct GlobalParams {
   int neighbours = 16;
   int most_neighbours = 96;
   double sheet_angle = 1.5707963267948966;  // 90 degrees
-  double max_gap = 2.5;
+  double max_gap = 1.8;
   int hole_edges = 12;
 
   static const Schema<GlobalParams>& schema();

@@ -8,6 +8,7 @@ namespace burnish {
 ManifoldSurface::ManifoldSurface(std::span<const Vec3f> positions, std::span<const Vec3f> normals)
     : positions_(positions), normals_(normals), first_corner_(positions.size(), kNone) {
   triangles_.reserve(2 * positions.size());
+  origin_.reserve(2 * positions.size());
   next_corner_.reserve(6 * positions.size());
 }
 
@@ -34,20 +35,21 @@ std::uint32_t ManifoldSurface::successor(std::uint32_t v, std::uint32_t w) const
   return kNone;
 }
 
-void ManifoldSurface::add(const Triangle& t) {
+void ManifoldSurface::add(const Triangle& t, Origin origin) {
   const auto number = static_cast<std::uint32_t>(triangles_.size());
   triangles_.push_back(t);
+  origin_.push_back(origin);
   for (std::uint32_t i = 0; i < 3; ++i) {
     next_corner_.push_back(first_corner_[t[i]]);
     first_corner_[t[i]] = 3 * number + i;
   }
 }
 
-bool ManifoldSurface::add_if_manifold(const Triangle& t) {
+bool ManifoldSurface::add_if_manifold(const Triangle& t, Origin origin) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (!fits(t[i], t[(i + 1) % 3], t[(i + 2) % 3])) return false;
   }
-  add(t);
+  add(t, origin);
   return true;
 }
 
@@ -171,13 +173,14 @@ void ManifoldSurface::paths(std::uint32_t v, std::vector<std::vector<std::uint32
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
 }
 
-std::vector<Triangle> ManifoldSurface::triangles() const {
-  std::vector<Triangle> kept;
-  kept.reserve(triangles_.size());
-  for (const Triangle& t : triangles_) {
-    if (t[0] != kNone) kept.push_back(t);
+void ManifoldSurface::triangles(std::vector<Triangle>& kept, std::vector<Origin>& origin) const {
+  kept.clear();
+  origin.clear();
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (triangles_[t][0] == kNone) continue;
+    kept.push_back(triangles_[t]);
+    origin.push_back(origin_[t]);
   }
-  return kept;
 }
 
 }  // namespace burnish

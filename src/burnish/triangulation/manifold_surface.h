@@ -23,15 +23,20 @@ class ManifoldSurface {
   ManifoldSurface(std::span<const Vec3f> positions, std::span<const Vec3f> normals);
 
   /// Adds `t` without asking; the caller knows that it fits.
-  void add(const Triangle& t);
+  void add(const Triangle& t, Origin origin = Origin::seen);
 
   /// Adds `t` where its three directed edges are free and every link stays a set of paths or one
   /// cycle. O(valence).
-  bool add_if_manifold(const Triangle& t);
+  bool add_if_manifold(const Triangle& t, Origin origin = Origin::seen);
 
   /// Whether `t` folds back at a corner or lies over a triangle that is there, seen along the
   /// corner's normal. O(valence).
   bool overlaps(const Triangle& t) const;
+
+  /// Whether an edge of `t` is one of a triangle on its other side. O(valence).
+  bool touches(const Triangle& t) const {
+    return has_edge(t[1], t[0]) || has_edge(t[2], t[1]) || has_edge(t[0], t[2]);
+  }
 
   void remove(std::uint32_t triangle);
 
@@ -45,8 +50,8 @@ class ManifoldSurface {
   /// equally long ones that which begins with the smallest index. For a vertex that has corners.
   void paths(std::uint32_t v, std::vector<std::vector<std::uint32_t>>& found) const;
 
-  /// The triangles that were not removed, in the order of insertion.
-  std::vector<Triangle> triangles() const;
+  /// The triangles that were not removed, in the order of insertion, and where each comes from.
+  void triangles(std::vector<Triangle>& kept, std::vector<Origin>& origin) const;
   std::size_t vertex_count() const { return first_corner_.size(); }
 
  private:
@@ -68,6 +73,7 @@ class ManifoldSurface {
 
   std::span<const Vec3f> positions_, normals_;
   std::vector<Triangle> triangles_;
+  std::vector<Origin> origin_;
   std::vector<std::uint32_t> first_corner_, next_corner_;
 };
 

@@ -1,6 +1,7 @@
 #include "burnish/triangulation/small_holes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -41,12 +42,20 @@ std::vector<Loop> small_loops(const ManifoldSurface& surface, std::size_t max_ed
   return loops;
 }
 
+/// The squared diameter of the smallest circle around a triangle, from its squared edges and the
+/// square of twice its area: an edge of an obtuse one, the circumscribed circle else.
+double squared_width(const std::array<double, 3>& squared, double squared_area) {
+  const double longest = std::max({squared[0], squared[1], squared[2]});
+  const double others = squared[0] + squared[1] + squared[2] - longest;
+  return others <= longest ? longest : squared[0] * squared[1] * squared[2] / squared_area;
+}
+
 /// The best triangulation of one loop.
 class LoopTriangulation {
  public:
   LoopTriangulation(const ManifoldSurface& surface, std::span<const Vec3f> positions,
-                    std::span<const Vec3f> normals)
-      : surface_(surface), positions_(positions), normals_(normals) {}
+                    std::span<const Vec3f> normals, const Fans& fans, double reach)
+      : surface_(surface), positions_(positions), normals_(normals), fans_(fans), reach_(reach) {}
 
   /// Appends triangles that fill `loop`; none where there is no way.
   void append(const Loop& loop, std::vector<Triangle>& triangles) {
@@ -82,8 +91,13 @@ class LoopTriangulation {
       facing += along;
       if (!(along > 0)) fold *= kFoldPenalty;
     }
-    if (!(facing > 0)) return std::numeric_limits<double>::infinity();
-    return fold * (squared_norm(q - p) + squared_norm(r - q) + squared_norm(p - r)) / norm(area);
+    const std::array<double, 3> squared{squared_norm(q - p), squared_norm(r - q),
+                                        squared_norm(p - r)};
+    const double most = reach_ * std::max({fans_.spacing(a), fans_.spacing(b), fans_.spacing(c)});
+    if (!(facing > 0) || squared_width(squared, squared_norm(area)) > most * most) {
+      return std::numeric_limits<double>::infinity();
+    }
+    return fold * (squared[0] + squared[1] + squared[2]) / norm(area);
   }
 
   void collect(const Loop& loop, std::size_t i, std::size_t k,
@@ -97,6 +111,8 @@ class LoopTriangulation {
 
   const ManifoldSurface& surface_;
   std::span<const Vec3f> positions_, normals_;
+  const Fans& fans_;
+  double reach_;
   std::vector<double> cost_;
   std::vector<std::size_t> apex_;
 };
@@ -104,16 +120,16 @@ class LoopTriangulation {
 }  // namespace
 
 bool close_small_holes(ManifoldSurface& surface, std::span<const Vec3f> positions,
-                       std::span<const Vec3f> normals, std::size_t max_edges,
-                       const Context& context, std::size_t& added) {
+                       std::span<const Vec3f> normals, const Fans& fans, const HoleRule& rule,
+                       const Context& context) {
   if (context.cancelled()) return false;
-  LoopTriangulation triangulation(surface, positions, normals);
+  LoopTriangulation triangulation(surface, positions, normals, fans, rule.reach);
   std::vector<Triangle> triangles;
-  for (const Loop& loop : small_loops(surface, max_edges)) {
+  for (const Loop& loop : small_loops(surface, rule.max_edges)) {
     if (context.cancelled()) return false;
     triangles.clear();
     triangulation.append(loop, triangles);
-    for (const Triangle& t : triangles) added += surface.add_if_manifold(t);
+    for (const Triangle& t : triangles) surface.add_if_manifold(t, Origin::invented);
   }
   return true;
 }

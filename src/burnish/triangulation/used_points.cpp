@@ -21,6 +21,7 @@ Triangulation mesh_of_used_points(const PointCloud& cloud, std::vector<Triangle>
     used.push_back(v);
   }
   for (Triangle& t : triangles) t = {number[t[0]], number[t[1]], number[t[2]]};
+  result.report.missing_points = cloud.positions.size() - result.report.points;
   result.report.unused_points = result.report.points - used.size();
   result.report.triangles = triangles.size();
   result.mesh = {gather(cloud.positions, used), std::move(triangles),
