@@ -36,7 +36,8 @@ std::vector<Vec3f> oriented_normals(const FanCloud& fans, const std::optional<Ve
     }
     while (n < kLinks) links[p * kLinks + n++] = p;
   }
-  orient_consistently(fans.positions(), links, kLinks, normals, context);
+  orient_consistently(fans.positions(), NeighbourGrid(fans.positions()),
+                      NeighbourLists(kLinks, std::move(links)), normals, context);
   return normals;
 }
 

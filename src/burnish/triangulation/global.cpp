@@ -7,6 +7,7 @@
 
 #include "burnish/core/gather.h"
 #include "burnish/points/surface_normals.h"
+#include "burnish/triangulation/front.h"
 #include "burnish/triangulation/local_fans.h"
 #include "burnish/triangulation/manifold_surface.h"
 #include "burnish/triangulation/point_order.h"
@@ -24,14 +25,6 @@ constexpr std::size_t kBetweenLooks = 8192;
 /// A hole that measured triangles surround may be wider than what a triangle bridges unasked.
 constexpr double kHoleReach = 1.5;
 
-/// Sorts what not all fans agree on to the order in which it is tried.
-void sort_doubtful(std::vector<Candidate>& doubtful) {
-  std::sort(doubtful.begin(), doubtful.end(), [](const Candidate& a, const Candidate& b) {
-    if (a.votes != b.votes) return a.votes > b.votes;
-    return a.shape != b.shape ? a.shape > b.shape : a.triangle < b.triangle;
-  });
-}
-
 /// Three fans that agree on triangles never contradict each other: in a vertex's fan every
 /// neighbour has one successor. The others are taken where they fit.
 /// Returns false where cancelled.
@@ -46,7 +39,7 @@ bool insert_candidates(const std::vector<Candidate>& candidates, const Context& 
     }
   }
   if (context.cancelled()) return false;
-  sort_doubtful(doubtful);
+  std::sort(doubtful.begin(), doubtful.end(), sooner);
   // What is not joined to the surface yet may be once others are.
   for (bool grown = true; grown;) {
     grown = false;
@@ -112,6 +105,9 @@ const Schema<GlobalParams>& GlobalParams::schema() {
   using P = GlobalParams;
   static const auto schema =
       Schema<P>()
+          .choice("agreement", &P::agreement,
+                  {{"vote", Agreement::vote}, {"front", Agreement::front}},
+                  "triangles come in the order of the fans that agree on them, or grow from seeds")
           .integer("neighbours", &P::neighbours, between(3, 1000),
                    "neighbours that a fan begins with; doubled while they do not suffice")
           .integer("most_neighbours", &P::most_neighbours, between(3, 10000),
@@ -119,7 +115,7 @@ const Schema<GlobalParams>& GlobalParams::schema() {
           .real("sheet_angle", &P::sheet_angle, between(0, std::numbers::pi),
                 "neighbours whose normals are further apart are on another sheet", Quantity::angle)
           .real("max_gap", &P::max_gap, more_than(0),
-                "widest circumscribed circle, relative to the distance of the eighth neighbour")
+                "widest circumscribed circle, relative to the median edge of a corner's fan")
           .integer("hole_edges", &P::hole_edges, between(0, 100),
                    "boundary loops of at most so many edges are closed");
   return schema;
@@ -150,19 +146,22 @@ Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalPa
   context.stage("building fans");
   const FanRule rule{.most_neighbours = static_cast<std::size_t>(
                          std::max(params.most_neighbours, params.neighbours)),
-                     .cos_sheet_angle = std::cos(params.sheet_angle),
-                     .reach = params.max_gap};
+                     .cos_sheet_angle = std::cos(params.sheet_angle)};
   Fans fans;
+  const TriangleJudge judge(positions, normals, fans, params.max_gap);
   std::vector<Candidate> candidates;
   if (!build_fans(positions, normals, grid, neighbours, rule, context.part(0.4, 0.7), fans) ||
-      !count_votes(positions, normals, fans, params.max_gap, context.part(0.7, 0.8), candidates)) {
+      !count_votes(fans, judge, context.part(0.7, 0.8), candidates)) {
     return cancelled();
   }
 
   if (context.cancelled()) return cancelled();
   context.stage("inserting triangles");
   ManifoldSurface surface(positions, normals);
-  if (!insert_candidates(candidates, context, surface)) return cancelled();
+  const bool inserted = params.agreement == Agreement::vote
+                            ? insert_candidates(candidates, context, surface)
+                            : grow_front(candidates, fans, judge, context, surface);
+  if (!inserted) return cancelled();
   context.progress(0.85);
   context.stage("closing holes");
   const HoleRule hole_rule{static_cast<std::size_t>(params.hole_edges),

@@ -7,11 +7,15 @@
 
 namespace burnish {
 
+/// How a surface is put together from the fans' triangles.
+enum class Agreement { vote, front };
+
 struct GlobalParams {
+  Agreement agreement = Agreement::vote;
   int neighbours = 16;
   int most_neighbours = 96;
   double sheet_angle = 1.5707963267948966;  // 90 degrees
-  double max_gap = 1.8;
+  double max_gap = 3;
   int hole_edges = 12;
 
   static const Schema<GlobalParams>& schema();

@@ -10,7 +10,8 @@ namespace burnish {
 namespace {
 
 constexpr std::size_t kPointsAtOnce = 1024;
-constexpr std::size_t kSpacingNeighbour = 8;
+/// A fan needs to know no more around it than so many times the distance of the eighth neighbour.
+constexpr double kReach = 2.5;
 /// By how much the spacing may grow from a point to a neighbour.
 constexpr float kSpacingGrowth = 2;
 /// A neighbour seen under a steeper angle to the tangent plane (60 degrees) is above or below the
@@ -43,23 +44,33 @@ class FanBuilder {
   double append(std::uint32_t p, std::vector<std::uint32_t>& rims) {
     std::span<const std::uint32_t> near = neighbours_.of(p);
     const std::size_t limit = std::min(rule_.most_neighbours + 1, positions_.size());
-    const double spacing = distance(p, near[std::min(kSpacingNeighbour, near.size() - 1)]);
+    const double enough = kReach * distance(p, near[std::min<std::size_t>(8, near.size() - 1)]);
     for (;;) {
       project(p, near);
       star_.build(plane_, p);
       const double known = distance(p, near.back());
       const bool complete = star_.closed() && star_.squared_diameter() <= known * known;
-      if (complete || known >= rule_.reach * spacing || near.size() >= limit) break;
+      if (complete || known >= enough || near.size() >= limit) break;
       near = look_further(p, std::min(2 * near.size(), limit));
     }
     for (const std::uint32_t i : star_.rim()) rims.push_back(plane_[i].index);
     if (!star_.closed() && !star_.rim().empty()) rims.push_back(Fans::kGap);
-    return spacing;
+    return median_edge(p);
   }
 
  private:
   double distance(std::uint32_t p, std::uint32_t q) const {
     return norm(Vec3d(positions_[q]) - Vec3d(positions_[p]));
+  }
+
+  /// Half the edges to the rim are at least as long.
+  double median_edge(std::uint32_t p) {
+    edges_.clear();
+    for (const std::uint32_t i : star_.rim()) edges_.push_back(distance(p, plane_[i].index));
+    if (edges_.empty()) return 0;
+    const auto middle = edges_.begin() + static_cast<std::ptrdiff_t>(edges_.size() / 2);
+    std::nth_element(edges_.begin(), middle, edges_.end());
+    return *middle;
   }
 
   std::span<const std::uint32_t> look_further(std::uint32_t p, std::size_t count) {
@@ -95,6 +106,7 @@ class FanBuilder {
   std::vector<Neighbour> found_;
   std::vector<std::uint32_t> further_;
   std::vector<PlanePoint> plane_;
+  std::vector<double> edges_;
   DelaunayStar star_;
 };
 

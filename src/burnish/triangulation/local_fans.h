@@ -15,7 +15,6 @@ namespace burnish {
 struct FanRule {
   std::size_t most_neighbours = 96;
   double cos_sheet_angle = 0;  ///< neighbours whose normals are further apart are on another sheet
-  double reach = 2.5;          ///< a fan needs to know no more than this many spacings around it
 };
 
 /// Fans of triangles around points, each on its own: the rim of a point is the sequence of
@@ -30,18 +29,28 @@ class Fans {
     return {rims_.data() + offsets_[p], rims_.data() + offsets_[p + 1]};
   }
 
-  /// Distance of a point to its eighth neighbour (the last one where there are fewer), but at most
-  /// twice the largest such distance on its rim, m.
+  /// Median length of the edges from a point to its rim, but at most twice the largest such length
+  /// of a point of the rim, m; 0 where the rim is empty.
   double spacing(std::size_t p) const { return spacing_[p]; }
 
-  /// Whether the fan of `p` has the triangle (p, q, r).
-  bool has(std::uint32_t p, std::uint32_t q, std::uint32_t r) const {
+  /// What follows the neighbour `q` on the rim of `p`, or comes before it; kGap where nothing does.
+  std::uint32_t after(std::uint32_t p, std::uint32_t q) const {
     const auto around = rim(p);
     for (std::size_t i = 0; i < around.size(); ++i) {
-      if (around[i] == q) return around[i + 1 < around.size() ? i + 1 : 0] == r;
+      if (around[i] == q) return around[i + 1 < around.size() ? i + 1 : 0];
     }
-    return false;
+    return kGap;
   }
+  std::uint32_t before(std::uint32_t p, std::uint32_t q) const {
+    const auto around = rim(p);
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      if (around[i] == q) return around[i > 0 ? i - 1 : around.size() - 1];
+    }
+    return kGap;
+  }
+
+  /// Whether the fan of `p` has the triangle (p, q, r).
+  bool has(std::uint32_t p, std::uint32_t q, std::uint32_t r) const { return after(p, q) == r; }
 
  private:
   friend bool build_fans(std::span<const Vec3f>, std::span<const Vec3f>, const NeighbourGrid&,

@@ -38,6 +38,9 @@ class ManifoldSurface {
     return has_edge(t[1], t[0]) || has_edge(t[2], t[1]) || has_edge(t[0], t[2]);
   }
 
+  /// Whether `v` is a corner of a triangle.
+  bool uses(std::uint32_t v) const { return first_corner_[v] != kNone; }
+
   void remove(std::uint32_t triangle);
 
   /// Whether some triangle has the edge from a to b in this direction.
