@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "burnish/base/random.h"
 #include "burnish/shapes/shapes.h"
+#include "burnish/spatial/closest_point.h"
 
 namespace burnish {
 namespace {
@@ -98,6 +101,32 @@ TEST(SurfaceCoverage, CountsAndNamesTheTrianglesFarAway) {
   EXPECT_EQ(
       surface_coverage(mesh, truth, {.spacing = 1, .far_away = 3, .samples = 100})->far_triangles,
       1u);
+}
+
+TEST(SurfaceCoverage, IsAsDefinedOnARoughSurface) {
+  TriangleMesh mesh = make_sphere(1, 3);
+  const TriangleMesh truth = make_sphere(1, 4);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    mesh.positions[v] *= static_cast<float>(1 + 0.1 * Random(1, v).normal());
+  }
+  const ClosestPoint on_truth(truth);
+  const double limit = 0.15;
+  double farthest = 0;
+  std::size_t far = 0;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3d a(mesh.positions[i]), b(mesh.positions[j]), c(mesh.positions[k]);
+    double most = 0;
+    for (const Vec3d& p :
+         {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (1.0 / 3) * (a + b + c)}) {
+      most = std::max(most, on_truth(p).distance);
+    }
+    far += most > limit;
+    farthest = std::max(farthest, most);
+  }
+  const CoverageParams params{.spacing = limit / 2, .samples = 100};
+  const auto coverage = surface_coverage(mesh, truth, params);
+  EXPECT_EQ(coverage->far_triangles, far);
+  EXPECT_NEAR(coverage->farthest_triangle_distance, farthest, 1e-12);
 }
 
 TEST(SurfaceCoverage, FramesAreTakenIntoAccount) {

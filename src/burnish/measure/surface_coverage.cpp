@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "burnish/base/parallel.h"
 #include "burnish/measure/surface_samples.h"
@@ -64,38 +65,67 @@ Result<double> missing_share(const TriangleMesh& mesh, const TriangleMesh& truth
   return static_cast<double>(missing) / static_cast<double>(points.size());
 }
 
-/// Of each triangle the largest distance of its corners, edge midpoints and centroid from `truth`.
-Result<std::vector<double>> triangle_distances(const TriangleMesh& mesh, const TriangleMesh& truth,
-                                               const Context& context) {
-  const ClosestPoint on_truth(truth, context);
-  const Vec3d shift = mesh.frame.origin - truth.frame.origin;
-  std::vector<double> of_vertices(mesh.positions.size()), of_triangles(mesh.triangles.size());
-  const auto measure_vertices = [&](IndexRange range) {
-    for (std::size_t v = range.begin; v < range.end; ++v) {
-      of_vertices[v] = on_truth(Vec3d(mesh.positions[v]) + shift).distance;
+/// Of each triangle the largest distance of its corners, edge midpoints and centroid from `truth`,
+/// in double from the truth's frame; of those that come neither to `enough` nor to the farthest
+/// vertex only that of the corners, which is most of the work saved.
+class TriangleDistances {
+ public:
+  TriangleDistances(const TriangleMesh& mesh, const TriangleMesh& truth, const Context& context)
+      : mesh_(mesh), on_truth_(truth, context), shift_(mesh.frame.origin - truth.frame.origin) {}
+
+  Result<std::vector<double>> measure(double enough, const Context& context) const {
+    std::vector<double> corners(mesh_.positions.size()), distances(mesh_.triangles.size());
+    const bool complete = parallel_for(
+                              context.part(0, 0.5), corners.size(),
+                              [&](IndexRange range) {
+                                for (std::size_t v = range.begin; v < range.end; ++v)
+                                  corners[v] = distance(place(v));
+                              },
+                              kGrain) &&
+                          parallel_for(
+                              context.part(0.5, 0.6), distances.size(),
+                              [&](IndexRange range) {
+                                for (std::size_t t = range.begin; t < range.end; ++t) {
+                                  const auto [a, b, c] = mesh_.triangles[t];
+                                  distances[t] = std::max({corners[a], corners[b], corners[c]});
+                                }
+                              },
+                              kGrain);
+    if (!complete) return cancelled();
+    if (distances.empty()) return distances;
+    const double floor = std::min(enough, *std::max_element(distances.begin(), distances.end()));
+    if (!parallel_for(
+            context.part(0.6, 1), distances.size(),
+            [&](IndexRange range) {
+              for (std::size_t t = range.begin; t < range.end; ++t) {
+                distances[t] = with_inner_points(t, distances[t], floor);
+              }
+            },
+            kGrain)) {
+      return cancelled();
     }
-  };
-  const auto measure_triangles = [&](IndexRange range) {
-    for (std::size_t t = range.begin; t < range.end; ++t) {
-      Vec3d corners[3];
-      double most = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        corners[i] = Vec3d(mesh.positions[mesh.triangles[t][i]]) + shift;
-        most = std::max(most, of_vertices[mesh.triangles[t][i]]);
-      }
-      const Vec3d inner[] = {0.5 * (corners[0] + corners[1]), 0.5 * (corners[1] + corners[2]),
-                             0.5 * (corners[2] + corners[0]),
-                             (1.0 / 3) * (corners[0] + corners[1] + corners[2])};
-      for (const Vec3d& p : inner) most = std::max(most, on_truth(p).distance);
-      of_triangles[t] = most;
-    }
-  };
-  if (!parallel_for(context.part(0, 0.2), of_vertices.size(), measure_vertices, kGrain) ||
-      !parallel_for(context.part(0.2, 1), of_triangles.size(), measure_triangles, kGrain)) {
-    return cancelled();
+    return distances;
   }
-  return of_triangles;
-}
+
+ private:
+  Vec3d place(std::size_t vertex) const { return Vec3d(mesh_.positions[vertex]) + shift_; }
+  double distance(const Vec3d& p) const { return on_truth_(p).distance; }
+
+  double with_inner_points(std::size_t t, double of_corners, double floor) const {
+    const auto [i, j, k] = mesh_.triangles[t];
+    const Vec3d a = place(i), b = place(j), c = place(k);
+    // No point of the triangle is farther from the nearest corner than 1 / sqrt(3) of an edge.
+    const double longest =
+        std::sqrt(std::max({squared_norm(b - a), squared_norm(c - b), squared_norm(a - c)}));
+    if (of_corners + longest / std::numbers::sqrt3 <= floor) return of_corners;
+    return std::max({of_corners, distance(0.5 * (a + b)), distance(0.5 * (b + c)),
+                     distance(0.5 * (c + a)), distance((1.0 / 3) * (a + b + c))});
+  }
+
+  const TriangleMesh& mesh_;
+  ClosestPoint on_truth_;
+  Vec3d shift_;
+};
 
 }  // namespace
 
@@ -118,7 +148,9 @@ Result<SurfaceCoverage> surface_coverage(const TriangleMesh& mesh, const Triangl
   result.missing_share = *missing;
   result.missing_area = *missing * result.true_area;
 
-  const auto distances = triangle_distances(mesh, truth, context.part(0.3, 1));
+  const double far_away = params.far_away * result.spacing;
+  const auto distances =
+      TriangleDistances(mesh, truth, context).measure(far_away, context.part(0.3, 1));
   if (!distances) return distances.error();
   const auto farthest = std::max_element(distances->begin(), distances->end());
   result.farthest_triangle_distance = *farthest;
