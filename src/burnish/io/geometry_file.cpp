@@ -260,16 +260,18 @@ Result<GeometryFile> read_geometry(const fs::path& path, const Context& context)
   }
 }
 
+Result<TriangleMesh> mesh_of(GeometryFile file, const fs::path& path) {
+  if (!file.mesh.triangles.empty()) return std::move(file.mesh);
+  return Error{ErrorCode::bad_geometry,
+               fmt::format("a mesh was expected, the file has {} points and no triangles",
+                           file.mesh.positions.size()),
+               path.string()};
+}
+
 Result<TriangleMesh> read_mesh(const fs::path& path, const Context& context) {
   auto file = read_geometry(path, context);
   if (!file) return file.error();
-  if (file->mesh.triangles.empty()) {
-    return Error{ErrorCode::bad_geometry,
-                 fmt::format("a mesh was expected, the file has {} points and no triangles",
-                             file->mesh.positions.size()),
-                 path.string()};
-  }
-  return std::move(file->mesh);
+  return mesh_of(*std::move(file), path);
 }
 
 PointCloud cloud_of(GeometryFile file) {

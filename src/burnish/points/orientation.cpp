@@ -93,7 +93,9 @@ class SpanningTree {
         neighbours_(neighbours),
         normals_(normals),
         context_(context),
-        sets_(normals.size()) {}
+        sets_(normals.size()),
+        apart_(normals.size() -
+               static_cast<std::size_t>(std::count(normals.begin(), normals.end(), Vec3f{}))) {}
 
   /// Returns false where cancelled.
   bool build() { return join_light() && join_heavy() && join_islands(); }
@@ -102,7 +104,7 @@ class SpanningTree {
  private:
   /// The light links, which are as good as each other: those to the nearest neighbours first.
   bool join_light() {
-    for (std::size_t k = 0; k < neighbours_.count(); ++k) {
+    for (std::size_t k = 0; k < neighbours_.count() && apart_ > 1; ++k) {
       for (std::uint32_t i = 0; i < normals_.size(); ++i) {
         if (i % kBetweenLooks == 0 && context_.cancelled()) return false;
         const auto link = link_between_sets(i, neighbours_.of(i)[k]);
@@ -115,7 +117,7 @@ class SpanningTree {
   /// The others, from the lightest to the heaviest.
   bool join_heavy() {
     std::vector<Link> heavy;
-    for (std::uint32_t i = 0; i < normals_.size(); ++i) {
+    for (std::uint32_t i = 0; i < normals_.size() && apart_ > 1; ++i) {
       if (i % kBetweenLooks == 0 && context_.cancelled()) return false;
       for (std::size_t k = 0; k < neighbours_.count(); ++k) {
         if (auto link = link_between_sets(i, neighbours_.of(i)[k])) heavy.push_back(*link);
@@ -129,6 +131,7 @@ class SpanningTree {
   /// Where the sampling is much denser along lines than across them, all neighbours may be on the
   /// line: what is apart from the largest set looks further for light links.
   bool join_islands() {
+    if (apart_ <= 1) return true;
     const std::uint32_t largest = largest_set();
     std::vector<Neighbour> found;
     for (std::uint32_t i = 0; i < normals_.size(); ++i) {
@@ -162,7 +165,9 @@ class SpanningTree {
 
   void join(const Link& link) {
     const OrientedSets::Place a = sets_.find(link.a), b = sets_.find(link.b);
-    if (a.root != b.root) sets_.unite(a, b, agreement(positions_, normals_, link.a, link.b) < 0);
+    if (a.root == b.root) return;
+    sets_.unite(a, b, agreement(positions_, normals_, link.a, link.b) < 0);
+    --apart_;
   }
 
   std::span<const Vec3f> positions_;
@@ -171,6 +176,7 @@ class SpanningTree {
   const std::vector<Vec3f>& normals_;
   const Context& context_;
   OrientedSets sets_;
+  std::size_t apart_;  ///< sets that hold a normal
 };
 
 /// The point of largest z of every set, at its root's place. Returns the number of sets.

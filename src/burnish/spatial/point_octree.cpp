@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burnish/spatial/nearest_list.h"
+
 namespace burnish {
 namespace {
 
 constexpr std::size_t kChildren = 8;
-
-bool nearer(const Neighbour& a, const Neighbour& b) {
-  return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance
-                                                  : a.index < b.index;
-}
 
 }  // namespace
 
@@ -219,36 +216,16 @@ void PointOctree::set_reach(std::uint32_t index, const Vec3f& position, double s
                  [&](std::uint32_t leaf) { entry_of(leaf, index).squared_reach = squared_reach; });
 }
 
-/// The nearest points so far, sorted.
 struct PointOctree::NearestSearch {
   Vec3d query;
-  std::size_t count;
-  std::vector<Neighbour>& found;
-
-  /// Points farther away are not wanted.
-  double squared_radius() const {
-    return found.size() < count ? std::numeric_limits<double>::infinity()
-                                : found.back().squared_distance;
-  }
-
-  void offer(const Entry& entry) {
-    const Neighbour here{entry.index, squared_norm(Vec3d(entry.position) - query)};
-    if (found.size() < count) {
-      found.push_back(here);
-    } else if (nearer(here, found.back())) {
-      found.back() = here;
-    } else {
-      return;
-    }
-    for (std::size_t i = found.size() - 1; i > 0 && nearer(here, found[i - 1]); --i) {
-      std::swap(found[i], found[i - 1]);
-    }
-  }
+  NearestList list;
 };
 
 void PointOctree::visit(const Node& node, NearestSearch& search) const {
   if (node.leaf) {
-    for (const Entry& entry : entries(node)) search.offer(entry);
+    for (const Entry& entry : entries(node)) {
+      search.list.offer({entry.index, squared_norm(Vec3d(entry.position) - search.query)});
+    }
     return;
   }
   struct Ahead {
@@ -268,16 +245,14 @@ void PointOctree::visit(const Node& node, NearestSearch& search) const {
     ahead[place] = here;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (ahead[i].squared_distance > search.squared_radius()) return;
+    if (ahead[i].squared_distance > search.list.squared_radius()) return;
     visit(*ahead[i].child, search);
   }
 }
 
 void PointOctree::nearest(const Vec3f& query, std::size_t count,
                           std::vector<Neighbour>& found) const {
-  found.clear();
-  if (count == 0) return;
-  NearestSearch search{Vec3d(query), count, found};
+  NearestSearch search{Vec3d(query), NearestList(count, found)};
   visit(nodes_[0], search);
 }
 

@@ -24,17 +24,12 @@ double dot(const Point& a, const Point& b) {
   return a.x * b.x + a.y * b.y;
 }
 
-template <class Point>
-double squared_norm(const Point& p) {
-  return dot(p, p);
-}
-
 /// Whether b is less than half a turn counter-clockwise from a, and more than nothing.
 template <class Point>
 bool is_left(const Point& a, const Point& b) {
   const double area = cross(a, b);
   return area > 0 &&
-         area * area > kSameDirection * kSameDirection * squared_norm(a) * squared_norm(b);
+         area * area > kSameDirection * kSameDirection * a.squared_norm * b.squared_norm;
 }
 
 enum class Turn { right, straight, left };
@@ -70,13 +65,13 @@ void DelaunayStar::invert(const std::vector<PlanePoint>& points) {
   around_.clear();
   for (const Ray& ray : rays_) {
     const PlanePoint& p = points[ray.number];
-    const double scale = 1 / squared_norm(p);
-    const Inverted inverted{p.x * scale, p.y * scale, ray.number, ray.index};
+    const double scale = 1 / dot(p, p);  // and the square of the inverted point's norm
+    const Inverted inverted{p.x * scale, p.y * scale, scale, ray.number, ray.index};
     const bool same =
         !around_.empty() && !is_left(around_.back(), inverted) && dot(around_.back(), inverted) > 0;
     if (!same) {
       around_.push_back(inverted);
-    } else if (squared_norm(inverted) > squared_norm(around_.back())) {
+    } else if (inverted.squared_norm > around_.back().squared_norm) {
       around_.back() = inverted;
     }
   }
@@ -93,7 +88,7 @@ std::size_t DelaunayStar::find_start() {
       closed_ = false;
       return next;
     }
-    if (squared_norm(around_[i]) > squared_norm(around_[nearest])) nearest = i;
+    if (around_[i].squared_norm > around_[nearest].squared_norm) nearest = i;
   }
   return nearest;
 }

@@ -34,6 +34,7 @@ class DelaunayStar {
   };
   struct Inverted {
     double x, y;
+    double squared_norm;
     std::uint32_t number, index;
   };
   void sort_around(const std::vector<PlanePoint>& points);

@@ -9,32 +9,37 @@ namespace burnish {
 /// Directions in a plane, sorted by angle, and the gaps between them.
 class DirectionRing {
  public:
-  struct Direction {
-    double angle;  ///< -pi to pi
-    std::uint32_t point;
-  };
+  /// From a wider angle on, rad, less than pi, what lies between two directions is a gap.
+  explicit DirectionRing(double widest);
 
   void clear() { directions_.clear(); }
 
-  /// Returns false, and leaves the ring, where a direction is there already. O(#directions).
-  bool insert(const Direction& direction);
+  /// The direction (x, y), not 0, of point number `point`. Left out where a direction is there
+  /// already. O(#directions).
+  void insert(double x, double y, std::uint32_t point);
 
-  /// The gap in which `angle` lies; 2 pi in an empty ring.
-  double gap_at(double angle) const;
+  /// Whether (x, y) lies in a gap. An empty ring is one.
+  bool in_gap(double x, double y) const;
 
-  /// The widest of the gaps from direction number `from` counter-clockwise to number `to`; all
-  /// around where these are the same. 2 pi in a ring of one.
-  double widest_gap(std::size_t from, std::size_t to) const;
-  double widest_gap() const;
+  /// Whether there is a gap on the way from direction number `from` counter-clockwise to number
+  /// `to`; all around where these are the same.
+  bool gap_between(std::size_t from, std::size_t to) const;
+  bool any_gap() const { return directions_.empty() || gap_between(0, 0); }
 
   std::size_t size() const { return directions_.size(); }
-  const Direction& operator[](std::size_t i) const { return directions_[i]; }
+  std::uint32_t point(std::size_t i) const { return directions_[i].point; }
 
  private:
-  std::size_t first_after(double angle) const;
-  double gap_after(std::size_t i) const;
+  /// Angles as turn_of has them.
+  struct Direction {
+    double turn, widest;  ///< `widest`: to the next direction without a gap
+    std::uint32_t point;
+  };
+  std::size_t last_before(double turn) const;
+  double to_next(std::size_t i) const;
 
   std::vector<Direction> directions_;
+  double cos_, sin_;
 };
 
 }  // namespace burnish

@@ -9,8 +9,6 @@
 namespace burnish {
 namespace {
 
-/// Gaps wider than allowed by less than this are allowed, rad: positions are rounded to float.
-constexpr double kSlack = 1e-6;
 /// What is seen more steeply, squared sine (84 degrees), has no direction in the plane.
 constexpr double kVertical = 0.99;
 
@@ -20,13 +18,15 @@ FanBuilder::FanBuilder(const FanCloudParams& params, NearestQuery nearest)
     : params_(params),
       nearest_(std::move(nearest)),
       k_(static_cast<std::size_t>(params.k)),
-      widest_gap_(std::min(params.gap_angle, std::numbers::pi - 2 * kSlack) + kSlack),
       cos_sheet_angle_(std::cos(params.sheet_angle)),
-      steepest_(std::min(kVertical, std::pow(std::sin(params.steep_angle), 2))) {}
+      steepest_(std::min(kVertical, std::pow(std::sin(params.steep_angle), 2))),
+      ring_(params.gap_angle) {}
 
 const Fan& FanBuilder::build(std::uint32_t p, const OrientedPoints& points) {
   const std::size_t most = k_ * static_cast<std::size_t>(params_.cap);
-  std::size_t count = std::min(2 * k_, most);
+  // So many suffice for most fans.
+  const std::size_t first = params_.variant == FanVariant::ring ? k_ + k_ / 2 : 2 * k_;
+  std::size_t count = std::min(first, most);
   for (;; count = most) {
     nearest_(points.positions[p], count + 1, neighbours_);
     std::erase_if(neighbours_, [p](const Neighbour& q) { return q.index == p; });
@@ -104,10 +104,10 @@ bool FanBuilder::build_ring(std::uint32_t p, const OrientedPoints& points) {
   bool complete = false;
   for (std::size_t i = 0; i < neighbours_.size() && !complete; ++i) {
     if (!project(p, neighbours_[i], points)) continue;
-    const double angle = std::atan2(plane_.back().y, plane_.back().x);
-    const bool wanted = ring_.size() < k_ || ring_.gap_at(angle) > widest_gap_;
-    if (wanted) ring_.insert({angle, static_cast<std::uint32_t>(plane_.size() - 1)});
-    complete = wanted && ring_.size() >= k_ && ring_.widest_gap() <= widest_gap_;
+    const PlanePoint& q = plane_.back();
+    if (ring_.size() >= k_ && !ring_.in_gap(q.x, q.y)) continue;
+    ring_.insert(q.x, q.y, static_cast<std::uint32_t>(plane_.size() - 1));
+    complete = ring_.size() >= k_ && !ring_.any_gap();
     if (complete) looked_at_ = i + 1;
   }
   for (std::size_t i = 0; i < ring_.size(); ++i) rim_.push_back(i);
@@ -118,16 +118,16 @@ bool FanBuilder::build_ring(std::uint32_t p, const OrientedPoints& points) {
 bool FanBuilder::build_star(std::uint32_t p, const OrientedPoints& points) {
   for (const Neighbour& neighbour : neighbours_) {
     if (!project(p, neighbour, points)) continue;
-    const double angle = std::atan2(plane_.back().y, plane_.back().x);
-    ring_.insert({angle, static_cast<std::uint32_t>(plane_.size() - 1)});
+    const PlanePoint& q = plane_.back();
+    ring_.insert(q.x, q.y, static_cast<std::uint32_t>(plane_.size() - 1));
   }
   star_.build(plane_, p);
   place_.assign(plane_.size(), ring_.size());
-  for (std::size_t i = 0; i < ring_.size(); ++i) place_[ring_[i].point] = i;
+  for (std::size_t i = 0; i < ring_.size(); ++i) place_[ring_.point(i)] = i;
   for (const std::uint32_t point : star_.rim()) {
     if (place_[point] < ring_.size()) rim_.push_back(place_[point]);
   }
-  return star_.closed() && ring_.size() >= k_ && ring_.widest_gap() <= widest_gap_ &&
+  return star_.closed() && ring_.size() >= k_ && !ring_.any_gap() &&
          star_.squared_diameter() <= neighbours_.back().squared_distance;
 }
 
@@ -139,15 +139,15 @@ void FanBuilder::write_rim() {
   gaps_.resize(count);
   std::size_t start = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    gaps_[i] = ring_.widest_gap(rim_[i], rim_[i + 1 < count ? i + 1 : 0]) > widest_gap_;
-    if (ring_[rim_[i]].point < ring_[rim_[start]].point) start = i;
+    gaps_[i] = ring_.gap_between(rim_[i], rim_[i + 1 < count ? i + 1 : 0]);
+    if (ring_.point(rim_[i]) < ring_.point(rim_[start])) start = i;
   }
   const auto gap = std::find(gaps_.begin(), gaps_.end(), true);
   if (gap != gaps_.end()) start = static_cast<std::size_t>(gap - gaps_.begin()) + 1;
   bool after_gap = gap != gaps_.end();
   for (std::size_t j = 0; j < count; ++j) {
     const std::size_t i = (start + j) % count;
-    if (!after_gap || !gaps_[i]) fan_.rim.push_back(plane_[ring_[rim_[i]].point].index);
+    if (!after_gap || !gaps_[i]) fan_.rim.push_back(plane_[ring_.point(rim_[i])].index);
     if (!after_gap && gaps_[i]) fan_.rim.push_back(Fan::kGap);
     after_gap = gaps_[i];
   }

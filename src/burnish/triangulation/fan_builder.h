@@ -68,7 +68,7 @@ class FanBuilder {
   FanCloudParams params_;
   NearestQuery nearest_;
   std::size_t k_;
-  double widest_gap_, cos_sheet_angle_, steepest_;
+  double cos_sheet_angle_, steepest_;
   Fan fan_;
   std::vector<Neighbour> neighbours_;  ///< of the point, itself left out
   std::size_t looked_at_ = 0;          ///< so many of them have an influence

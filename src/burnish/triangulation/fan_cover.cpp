@@ -1,17 +1,16 @@
 #include "burnish/triangulation/fan_cover.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 #include "burnish/triangulation/tangent_frame.h"
+#include "burnish/triangulation/turn.h"
 
 namespace burnish {
 namespace {
 
-constexpr double kFullTurn = 2 * std::numbers::pi;
-/// What is left open of a corner by less than this, rad, is not seen: positions are rounded.
+/// What is left open of a corner by less than this, in quarter turns, is not seen.
 constexpr double kSliver = 1e-4;
 constexpr std::size_t kBetweenLooks = 8192;
 
@@ -22,11 +21,6 @@ void for_each_triangle(const FanCloud& fans, std::uint32_t p, Visit visit) {
     const std::uint32_t q = rim[i], r = rim[i + 1 < rim.size() ? i + 1 : 0];
     if (q != Fan::kGap && r != Fan::kGap) visit(q, r);
   }
-}
-
-double turn(double from, double to) {
-  const double angle = to - from;
-  return angle < 0 ? angle + kFullTurn : angle;
 }
 
 class Cover {
@@ -47,18 +41,23 @@ class Cover {
   }
 
   void fill_around(std::uint32_t p) {
-    if (role_[p] == Role::centre || fans_.rim(p).empty()) return;
+    if (role_[p] == Role::centre) return;
+    open_.clear();
+    for_each_triangle(fans_, p, [&](std::uint32_t q, std::uint32_t r) {
+      if (!taken(p, q, r)) open_.push_back({p, q, r});
+    });
+    if (open_.empty()) return;
     frame_ = TangentFrame(Vec3d(fans_.fan_normal(p)));
     origin_ = Vec3d(fans_.positions()[p]);
     covered_.clear();
     for (std::uint32_t i = first_[p]; i != kNone; i = corners_[i].next) {
-      const double a = angle(corners_[i].from), b = angle(corners_[i].to);
-      const bool swapped = turn(a, b) > std::numbers::pi;
-      covered_.push_back(swapped ? Arc{b, turn(b, a)} : Arc{a, turn(a, b)});
+      const Arc arc = arc_between(corners_[i].from, corners_[i].to);
+      const bool ahead = arc.width <= kHalfTurn;
+      covered_.push_back(ahead ? arc : Arc{arc.begin + arc.width, kFullTurn - arc.width});
     }
-    for_each_triangle(fans_, p, [&](std::uint32_t q, std::uint32_t r) {
-      if (!taken(p, q, r) && !covers({angle(q), turn(angle(q), angle(r))})) take({p, q, r});
-    });
+    for (const Triangle& t : open_) {
+      if (!covers(arc_between(t[1], t[2]))) take(t);
+    }
   }
 
   std::vector<Triangle> triangles;
@@ -68,15 +67,21 @@ class Cover {
   enum class Role : std::uint8_t { none, rim, centre };
 
   struct Arc {
-    double begin, width;
+    double begin, width;  ///< as turn_of has them
   };
   /// A corner of a triangle that was taken by another fan; those of a point are a linked list.
   struct Corner {
     std::uint32_t from, to, next;
   };
 
-  double angle(std::uint32_t q) const {
-    return frame_.angle(Vec3d(fans_.positions()[q]) - origin_);
+  double turn_to(std::uint32_t q) const {
+    const Vec3d to = Vec3d(fans_.positions()[q]) - origin_;
+    return turn_of(dot(frame_.u, to), dot(frame_.v, to));
+  }
+
+  Arc arc_between(std::uint32_t q, std::uint32_t r) const {
+    const double begin = turn_to(q);
+    return {begin, turn_between(begin, turn_to(r))};
   }
 
   void take(const Triangle& t) {
@@ -102,12 +107,11 @@ class Cover {
     for (bool further = true; further && done < arc.width - kSliver;) {
       further = false;
       for (const Arc& other : covered_) {
-        const double ahead = turn(other.begin, arc.begin + done);  // of the other's beginning
-        const double left = other.width - (ahead > kFullTurn - kSliver ? ahead - kFullTurn : ahead);
-        if (left > kSliver && left <= other.width + kSliver) {
-          done += left;
-          further = true;
-        }
+        const double into = turn_between(other.begin, arc.begin + done + kSliver);
+        const double more = other.width - std::fmod(into, kFullTurn);
+        if (more <= 0) continue;
+        done += kSliver + more;
+        further = true;
       }
     }
     return done >= arc.width - kSliver;
@@ -119,6 +123,7 @@ class Cover {
   std::vector<Role> role_;
   TangentFrame frame_;
   Vec3d origin_;
+  std::vector<Triangle> open_;
   std::vector<Arc> covered_;
 };
 

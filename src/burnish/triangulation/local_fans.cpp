@@ -66,11 +66,13 @@ class FanBuilder {
   /// Half the edges to the rim are at least as long.
   double median_edge(std::uint32_t p) {
     edges_.clear();
-    for (const std::uint32_t i : star_.rim()) edges_.push_back(distance(p, plane_[i].index));
+    for (const std::uint32_t i : star_.rim()) {
+      edges_.push_back(squared_norm(Vec3d(positions_[plane_[i].index]) - Vec3d(positions_[p])));
+    }
     if (edges_.empty()) return 0;
     const auto middle = edges_.begin() + static_cast<std::ptrdiff_t>(edges_.size() / 2);
     std::nth_element(edges_.begin(), middle, edges_.end());
-    return *middle;
+    return std::sqrt(*middle);
   }
 
   std::span<const std::uint32_t> look_further(std::uint32_t p, std::size_t count) {

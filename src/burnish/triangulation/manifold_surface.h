@@ -41,13 +41,17 @@ class ManifoldSurface {
   /// Whether `v` is a corner of a triangle.
   bool uses(std::uint32_t v) const { return first_corner_[v] != kNone; }
 
+  /// Whether more than `count` vertices hang together with `v`, itself among them. O(count).
+  bool is_larger(std::uint32_t v, std::size_t count) const;
+
   void remove(std::uint32_t triangle);
 
   /// Whether some triangle has the edge from a to b in this direction.
   bool has_edge(std::uint32_t a, std::uint32_t b) const { return successor(a, b) != kNone; }
 
-  /// The gaps around all vertices, vertex by vertex; none for inner and unused vertices.
-  std::vector<Corner> corners() const;
+  /// The gaps around all vertices, vertex by vertex; none for inner and unused vertices. O(#V) the
+  /// first time, then of what had gaps or was changed since.
+  std::vector<Corner> corners();
 
   /// The triangles of each path of the link of `v`, from its beginning; the longest path first, of
   /// equally long ones that which begins with the smallest index. For a vertex that has corners.
@@ -64,6 +68,8 @@ class ManifoldSurface {
   struct LinkEdge {
     std::uint32_t corner, begin, end;
   };
+  void suspect(const Triangle& t);
+  bool is_inner(std::uint32_t v) const;
   template <class Visit>
   void for_each_link_edge(std::uint32_t v, Visit visit) const;
   std::uint32_t successor(std::uint32_t v, std::uint32_t w) const;
@@ -78,6 +84,8 @@ class ManifoldSurface {
   std::vector<Triangle> triangles_;
   std::vector<Origin> origin_;
   std::vector<std::uint32_t> first_corner_, next_corner_;
+  std::vector<std::uint32_t> suspects_;  ///< all others have no gap; from the first corners() on
+  bool watching_ = false;
 };
 
 }  // namespace burnish

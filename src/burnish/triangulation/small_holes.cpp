@@ -14,10 +14,12 @@ using Loop = std::vector<std::uint32_t>;
 
 /// How many times worse a triangle is for each corner whose normal it turns away from.
 constexpr double kFoldPenalty = 8;
+/// An island has at most so many vertices for one of its rim.
+constexpr std::size_t kIsland = 8;
 
 /// The boundary loops of three to `max_edges` different vertices, each from its smallest corner,
 /// with the gap on the left.
-std::vector<Loop> small_loops(const ManifoldSurface& surface, std::size_t max_edges) {
+std::vector<Loop> small_loops(ManifoldSurface& surface, std::size_t max_edges) {
   const std::vector<Corner> corners = surface.corners();
   std::vector<std::uint32_t> first(surface.vertex_count() + 1, 0);
   for (const Corner& corner : corners) ++first[corner.vertex + 1];
@@ -57,6 +59,20 @@ class LoopTriangulation {
                     std::span<const Vec3f> normals, const Fans& fans, double reach)
       : surface_(surface), positions_(positions), normals_(normals), fans_(fans), reach_(reach) {}
 
+  /// Whether `loop` is not the rim of an island: whether what fills it looks along the normals, or
+  /// belongs to much more than it.
+  bool is_hole(const Loop& loop) const {
+    if (surface_.is_larger(loop[0], kIsland * loop.size())) return true;
+    const Vec3d first(positions_[loop[0]]);
+    Vec3d area, normal;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t next = loop[i + 1 < loop.size() ? i + 1 : 0];
+      area += cross(Vec3d(positions_[loop[i]]) - first, Vec3d(positions_[next]) - first);
+      normal += Vec3d(normals_[loop[i]]);
+    }
+    return dot(area, normal) > 0;
+  }
+
   /// Appends triangles that fill `loop`; none where there is no way.
   void append(const Loop& loop, std::vector<Triangle>& triangles) {
     const std::size_t n = loop.size();
@@ -85,16 +101,14 @@ class LoopTriangulation {
   double cost(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const Vec3d p(positions_[a]), q(positions_[b]), r(positions_[c]);
     const Vec3d area = cross(q - p, r - p);
-    double facing = 0, fold = 1;
+    double fold = 1;
     for (const std::uint32_t v : {a, b, c}) {
-      const double along = dot(area, Vec3d(normals_[v]));
-      facing += along;
-      if (!(along > 0)) fold *= kFoldPenalty;
+      if (!(dot(area, Vec3d(normals_[v])) > 0)) fold *= kFoldPenalty;
     }
     const std::array<double, 3> squared{squared_norm(q - p), squared_norm(r - q),
                                         squared_norm(p - r)};
     const double most = reach_ * std::max({fans_.spacing(a), fans_.spacing(b), fans_.spacing(c)});
-    if (!(facing > 0) || squared_width(squared, squared_norm(area)) > most * most) {
+    if (squared_width(squared, squared_norm(area)) > most * most) {
       return std::numeric_limits<double>::infinity();
     }
     return fold * (squared[0] + squared[1] + squared[2]) / norm(area);
@@ -127,6 +141,7 @@ bool close_small_holes(ManifoldSurface& surface, std::span<const Vec3f> position
   std::vector<Triangle> triangles;
   for (const Loop& loop : small_loops(surface, rule.max_edges)) {
     if (context.cancelled()) return false;
+    if (!triangulation.is_hole(loop)) continue;
     triangles.clear();
     triangulation.append(loop, triangles);
     for (const Triangle& t : triangles) surface.add_if_manifold(t, Origin::invented);

@@ -16,9 +16,9 @@ struct HoleRule {
 
 /// Closes boundary loops of at most `max_edges` edges by the triangulation of best shape (the least
 /// sum of squared edges / area over its triangles, by dynamic programming; Barequet and Sharir
-/// 1995), as far as it faces along the normals, is no wider than the sampling says and the surface
-/// stays manifold. The triangles are marked as invented. Returns false where cancelled.
-/// O(#V + #loops * max_edges^3).
+/// 1995; turning away from normals costs), as far as it is no wider than the sampling says and the
+/// surface stays manifold. Loops around islands stay. The triangles are marked as invented. Returns
+/// false where cancelled. O(#V + #loops * max_edges^3).
 [[nodiscard]] bool close_small_holes(ManifoldSurface& surface, std::span<const Vec3f> positions,
                                      std::span<const Vec3f> normals, const Fans& fans,
                                      const HoleRule& rule, const Context& context);

@@ -18,9 +18,6 @@ struct TangentFrame {
     u = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
     v = {b, sign + n.y * n.y * a, -n.y};
   }
-
-  /// Angle of `to`, projected into the plane, from u towards v, -pi to pi.
-  double angle(const Vec3d& to) const { return std::atan2(dot(v, to), dot(u, to)); }
 };
 
 }  // namespace burnish

@@ -8,8 +8,8 @@
 namespace burnish {
 
 /// The mesh of `triangles`, which name points of `cloud`: points that no triangle uses are left
-/// out, the others keep their order and their attributes. Fills in all of the report but the
-/// invented triangles. O(#P + #T).
+/// out, the others keep their order and their attributes. Fills in all of the report but
+/// duplicate points and invented triangles. O(#P + #T).
 Triangulation mesh_of_used_points(const PointCloud& cloud, std::vector<Triangle> triangles);
 
 }  // namespace burnish
