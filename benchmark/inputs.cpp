@@ -201,7 +201,7 @@ Input merged(const std::string& folder) {
   std::vector<PointCloud> clouds;
   Input input;
   for (std::size_t i = 0; i < scans->size(); ++i) {
-    PointCloud cloud = required(scans->read(i, {}));
+    PointCloud cloud = required(scans->read(i, {})).cloud;
     required(clean_cloud(cloud, recipe.clean_scan, record, {}));
     append(input.truth, required(triangulate_cloud(halved(cloud), {"organized", {}}, record, {})));
     clouds.push_back(std::move(cloud));
