@@ -4,11 +4,13 @@
 #include <numbers>
 
 #include "../verb.h"
+#include "burnish/base/quantity.h"
 #include "burnish/core/topology.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/measure/area_and_volume.h"
 #include "burnish/measure/noise_estimate.h"
 #include "burnish/measure/one_ring_table.h"
+#include "burnish/measure/surface_coverage.h"
 #include "burnish/measure/triangle_quality.h"
 #include "burnish/measure/truth.h"
 
@@ -16,7 +18,7 @@ namespace burnish::app {
 namespace {
 
 struct Options {
-  std::string input, truth;
+  std::string input, truth, spacing;
   std::optional<std::uint32_t> vertex;
   bool json = false;
 };
@@ -57,6 +59,27 @@ void print_ring(const OneRingTable& table) {
     fmt::print("angle {}-{}-{}: {:.4f} deg\n", c.from, table.vertex, c.to, c.angle * kDegrees);
 }
 
+/// Adds what the true surface tells.
+Result<void> compare(const Options& options, const TriangleMesh& mesh,
+                     std::vector<Section>& sections, const Context& context) {
+  CoverageParams params;
+  if (!options.spacing.empty()) {
+    const Result<double> spacing = parse_quantity(options.spacing, Quantity::length);
+    if (!spacing) return Error{spacing.error().code, spacing.error().message, "--spacing"};
+    params.spacing = *spacing;
+  }
+  context.stage("comparing with " + options.truth);
+  const Result<TriangleMesh> truth = read_mesh(options.truth, context.part(0, 0.1));
+  if (!truth) return truth.error();
+  const auto comparison = compare_to_truth(mesh, *truth, {}, context.part(0.1, 0.5));
+  if (!comparison) return comparison.error();
+  sections.emplace_back("truth", comparison->facts());
+  const auto coverage = surface_coverage(mesh, *truth, params, context.part(0.5, 1));
+  if (!coverage) return coverage.error();
+  sections.emplace_back("coverage", coverage->facts());
+  return {};
+}
+
 Result<std::vector<Section>> measure_all(const Options& options, const TriangleMesh& mesh,
                                          const Context& context) {
   std::vector<Section> sections{{"topology", topology_facts(mesh)}};
@@ -70,12 +93,9 @@ Result<std::vector<Section>> measure_all(const Options& options, const TriangleM
   if (!noise) return noise.error();
   sections.emplace_back("noise", noise->facts());
   if (!options.truth.empty()) {
-    context.stage("comparing with " + options.truth);
-    const Result<TriangleMesh> truth = read_mesh(options.truth, context.part(0.4, 0.5));
-    if (!truth) return truth.error();
-    const auto comparison = compare_to_truth(mesh, *truth, {}, context.part(0.5, 1));
-    if (!comparison) return comparison.error();
-    sections.emplace_back("truth", comparison->facts());
+    if (auto added = compare(options, mesh, sections, context.part(0.4, 1)); !added) {
+      return added.error();
+    }
   }
   return sections;
 }
@@ -127,10 +147,17 @@ Result<void> measure(const Options& options, const Context& context) {
 
 Action add_measure(CLI::App& app) {
   auto* verb = app.add_subcommand(
-      "measure", "Measure a mesh: topology, triangle quality, size, noise, truth.");
+      "measure", "Measure a mesh: topology, triangle quality, size, noise, truth, coverage.");
   auto options = std::make_shared<Options>();
   verb->add_option("IN", options->input, "the mesh: PLY, OBJ, STL, OFF")->required();
-  verb->add_option("--truth", options->truth, "a mesh of the true surface to compare with");
+  auto* truth =
+      verb->add_option("--truth", options->truth, "a mesh of the true surface to compare with");
+  verb->add_option(
+          "--spacing", options->spacing,
+          "how far the points are from each other, for what is missing (farther than 1 "
+          "spacing) and invented (farther than 2); default: from the area and the vertices")
+      ->type_name("LENGTH")
+      ->needs(truth);
   verb->add_option("--vertex", options->vertex,
                    "print the one-ring of this vertex instead: distances, deviations, angles")
       ->type_name("N");

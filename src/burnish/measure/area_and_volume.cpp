@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "burnish/core/edges.h"
+#include "burnish/measure/surface_samples.h"
 
 namespace burnish {
 namespace {
@@ -29,10 +30,7 @@ Vec3d middle(const TriangleMesh& mesh) {
 
 Result<AreaAndVolume> area_and_volume(const TriangleMesh& mesh) {
   if (auto sound = check(mesh); !sound) return sound.error();
-  AreaAndVolume result;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    result.area += 0.5 * norm(area_vector(mesh, t));
-  }
+  AreaAndVolume result{surface_area(mesh), {}};
   if (!closed_and_oriented(mesh)) return result;
   const Vec3d from = middle(mesh);
   double six_volumes = 0;

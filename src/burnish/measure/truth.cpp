@@ -7,46 +7,12 @@
 #include <string>
 
 #include "burnish/base/parallel.h"
-#include "burnish/base/random.h"
 #include "burnish/measure/histogram.h"
+#include "burnish/measure/surface_samples.h"
 #include "burnish/spatial/closest_point.h"
 
 namespace burnish {
 namespace {
-
-struct Sample {
-  Vec3d point;
-  std::uint32_t triangle;
-};
-
-/// The sums of the areas up to and including each triangle.
-std::vector<double> area_sums(const TriangleMesh& mesh) {
-  std::vector<double> sums(mesh.triangles.size());
-  double sum = 0;
-  for (std::size_t t = 0; t < sums.size(); ++t) sums[t] = sum += norm(area_vector(mesh, t));
-  return sums;
-}
-
-/// One point in each of `count` equal parts of the surface, laid triangle after triangle.
-std::vector<Sample> samples_on(const TriangleMesh& mesh, std::size_t count) {
-  const std::vector<double> sums = area_sums(mesh);
-  std::vector<Sample> samples(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    Random random(1, i);
-    const double at = (static_cast<double>(i) + random.uniform()) / static_cast<double>(count);
-    const auto found = std::upper_bound(sums.begin(), sums.end() - 1, at * sums.back());
-    const auto t = static_cast<std::uint32_t>(found - sums.begin());
-    double u = random.uniform(), v = random.uniform();
-    if (u + v > 1) {
-      u = 1 - u;
-      v = 1 - v;
-    }
-    const auto [a, b, c] = mesh.triangles[t];
-    const Vec3d p(mesh.positions[a]);
-    samples[i] = {p + u * (Vec3d(mesh.positions[b]) - p) + v * (Vec3d(mesh.positions[c]) - p), t};
-  }
-  return samples;
-}
 
 Distances summary(std::vector<double> distances) {
   Distances result;
@@ -67,18 +33,6 @@ Distances summary(std::vector<double> distances) {
 
 double angle_between(const Vec3d& a, const Vec3d& b) {
   return std::atan2(norm(cross(a, b)), dot(a, b));
-}
-
-/// Whether the mesh can be measured against: sound, and not without area.
-Result<void> check_surface(const TriangleMesh& mesh, std::string_view name) {
-  if (auto sound = check(mesh); !sound) {
-    return Error{sound.error().code, sound.error().message, std::string(name)};
-  }
-  const std::vector<double> sums = area_sums(mesh);
-  if (sums.empty() || !(sums.back() > 0)) {
-    return Error{ErrorCode::bad_geometry, "a surface with an area expected", std::string(name)};
-  }
-  return {};
 }
 
 /// found(i) is told what is closest to point(i).
@@ -111,7 +65,7 @@ Result<TruthComparison> compare_to_truth(const TriangleMesh& mesh, const Triangl
   const auto count = static_cast<std::size_t>(params.samples);
 
   TruthComparison result;
-  const std::vector<Sample> samples = samples_on(mesh, count);
+  const std::vector<SurfaceSample> samples = surface_samples(mesh, count);
   std::vector<double> distances(count), angles(count);
   bool complete = find_all(
       context.part(0, 0.4), count, on_truth,
@@ -134,7 +88,7 @@ Result<TruthComparison> compare_to_truth(const TriangleMesh& mesh, const Triangl
   result.deviation.assign(of_vertices.begin(), of_vertices.end());
   result.vertices = summary(std::move(of_vertices));
 
-  const std::vector<Sample> true_samples = samples_on(truth, count);
+  const std::vector<SurfaceSample> true_samples = surface_samples(truth, count);
   complete = find_all(
       context.part(0.6, 1), count, on_mesh,
       [&](std::size_t i) { return true_samples[i].point - shift; },
