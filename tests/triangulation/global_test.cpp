@@ -78,10 +78,13 @@ void expect_oriented_manifold(const TriangleMesh& mesh) {
   EXPECT_EQ(t.unused_vertices, 0u);
 }
 
+constexpr Agreement kBoth[] = {Agreement::vote, Agreement::front};
+
 TEST(TriangulateGlobal, ClosesASphereThroughAllPoints) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     for (const double noise : {0.0, 0.05, 0.1}) {
-      const auto result = triangulate_global(sphere(2000, noise, seed));
+      const auto result = triangulate_global(
+          sphere(2000, noise, seed), {.agreement = seed % 2 ? Agreement::vote : Agreement::front});
       ASSERT_TRUE(result);
       expect_oriented_manifold(result->mesh);
       const Topology t = topology(result->mesh);
@@ -151,6 +154,83 @@ TEST(TriangulateGlobal, KeepsTwoSheetsApartThatAreNearerThanTheSpacing) {
   EXPECT_EQ(topology(result->mesh).components, 2u);
 }
 
+TEST(TriangulateGlobal, ClosesASphereUnderNoiseOfATenthOfItsVolume) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto result = triangulate_global(sphere(20000, .3, seed));
+    ASSERT_TRUE(result);
+    expect_oriented_manifold(result->mesh);
+    EXPECT_TRUE(topology(result->mesh).closed()) << "seed " << seed;
+    EXPECT_EQ(topology(result->mesh).euler_number, 2);
+    // Points lie up to three spacings inside each other: one in a thousand has no place.
+    EXPECT_LE(result->report.unused_points, 20u);
+  }
+}
+
+/// A plane with a hole that leaves a rim of 12 edges: too wide for a triangle that was measured.
+PointCloud plane_with_hole() {
+  PointCloud cloud;
+  for (const Vec3f& p : plane(30, 30, 1).positions) {
+    if (std::max(std::abs(p.x - 15), std::abs(p.y - 15)) > 1.5f) cloud.positions.push_back(p);
+  }
+  return cloud;
+}
+
+TEST(TriangulateGlobal, MarksWhatClosesAHoleAsInvented) {
+  for (const Agreement agreement : kBoth) {
+    const GlobalParams params{.agreement = agreement, .max_gap = 2};
+    const auto result = triangulate_global(plane_with_hole(), params);
+    ASSERT_TRUE(result);
+    expect_oriented_manifold(result->mesh);
+    EXPECT_EQ(topology(result->mesh).euler_number, 1);
+    const auto& origin = result->mesh.triangle_attributes.origin;
+    ASSERT_EQ(origin.size(), result->mesh.triangles.size());
+    double invented = 0;
+    for (std::size_t t = 0; t < origin.size(); ++t) {
+      if (origin[t] == Origin::invented) invented += norm(area_vector(result->mesh, t)) / 2;
+    }
+    // The hole is 4 x 4; triangles across its corners may have been measured.
+    EXPECT_GT(invented, 13.9);
+    EXPECT_LE(invented, 16.001);
+    EXPECT_GE(result->report.invented_triangles, 10u);
+  }
+}
+
+TEST(TriangulateGlobal, LeavesTheHoleWhereItMayNotClose) {
+  const auto result = triangulate_global(plane_with_hole(), {.max_gap = 2, .hole_edges = 0});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(topology(result->mesh).boundary_loops, 2u);
+  EXPECT_EQ(result->report.invented_triangles, 0u);
+}
+
+TEST(TriangulateGlobal, DoesNotCloseTheRimOfAnIsland) {
+  for (const int side : {2, 3, 4}) {  // rims of 4, 8 and 12 edges
+    const auto result = triangulate_global(plane(side, side, 1));
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->mesh.triangles.size(), 2u * (side - 1) * (side - 1));
+    EXPECT_EQ(result->report.invented_triangles, 0u);
+  }
+}
+
+TEST(TriangulateGlobal, SeesTheSurfaceOfLinesThatAreFarApart) {
+  // A cylinder scanned along circles: neighbours on the circle are ten times nearer than the next
+  // circle, so that sixteen of them are all on one line.
+  PointCloud cloud;
+  constexpr int kAround = 600;
+  for (int row = 0; row < 20; ++row) {
+    for (int i = 0; i < kAround; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + .5 * (row % 2)) / kAround;
+      cloud.positions.push_back(Vec3f(Vec3d{std::cos(angle), std::sin(angle), .1 * row}));
+    }
+  }
+  const auto result = triangulate_global(cloud);
+  ASSERT_TRUE(result);
+  expect_oriented_manifold(result->mesh);
+  const Topology t = topology(result->mesh);
+  EXPECT_EQ(t.components, 1u);
+  EXPECT_EQ(t.boundary_loops, 2u);
+  EXPECT_EQ(result->report.unused_points, 0u);
+}
+
 TEST(TriangulateGlobal, FollowsAChangeOfDensity) {
   // Spacing grows tenfold from one side to the other.
   PointCloud cloud;
@@ -214,14 +294,17 @@ std::vector<std::array<std::array<float, 3>, 3>> as_positions(const TriangleMesh
 }
 
 TEST(TriangulateGlobal, DoesNotDependOnTheOrderOfThePoints) {
-  for (const PointCloud& cloud : {sphere(1500, .3, 6), plane(20, 20, .1f)}) {
-    const auto result = triangulate_global(cloud);
+  for (const auto& [cloud, agreement] : {std::pair{sphere(1500, .3, 6), Agreement::vote},
+                                         {plane(20, 20, .1f), Agreement::vote},
+                                         {sphere(1500, .3, 6), Agreement::front}}) {
+    const GlobalParams params{.agreement = agreement};
+    const auto result = triangulate_global(cloud, params);
     ASSERT_TRUE(result);
     std::vector<std::uint32_t> order(cloud.positions.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
     Random random(7);
     for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-    const auto permuted = triangulate_global(select(cloud, order));
+    const auto permuted = triangulate_global(select(cloud, order), params);
     ASSERT_TRUE(permuted);
     EXPECT_EQ(as_positions(permuted->mesh), as_positions(result->mesh));
   }
@@ -278,7 +361,7 @@ TEST(TriangulateGlobal, MakesAnOrientedManifoldOfAnyPointsOfASmallLattice) {
         cloud.attributes.normals.push_back(normalized(Vec3f(random_offset(random, 1))));
       }
     }
-    const auto result = triangulate_global(cloud);
+    const auto result = triangulate_global(cloud, {.agreement = kBoth[seed % 4 / 2]});
     ASSERT_TRUE(result);
     expect_oriented_manifold(result->mesh);
     ASSERT_FALSE(HasFailure()) << "seed " << seed;
