@@ -12,8 +12,8 @@
 
 namespace burnish {
 
-/// The fan cloud of Linsen and Prautzsch 2001: around every point a fan of triangles, each on its
-/// own. Only abstracts could be read; the details are our own.
+/// The fan cloud of Linsen and Prautzsch 2001, 2003: around every point a fan of triangles, each on
+/// its own. Only abstracts could be read; the details are our own.
 ///
 /// `ring`: the k nearest neighbours (of equally near ones that of the smaller index), projected
 /// into the plane of least squares of them and the point (of more where they lie in a narrow
