@@ -4,13 +4,18 @@
 #include <cmath>
 #include <utility>
 
-#include "burnish/triangulation/least_squares_plane.h"
+#include "burnish/points/variation.h"
 
 namespace burnish {
 namespace {
 
 /// What is seen more steeply, squared sine (84 degrees), has no direction in the plane.
 constexpr double kVertical = 0.99;
+
+/// Of two opposite directions that whose largest coordinate is positive.
+Vec3d upward(const Vec3d& n) {
+  return std::max({n.x, n.y, n.z}) < -std::min({n.x, n.y, n.z}) ? -n : n;
+}
 
 }  // namespace
 
@@ -60,28 +65,30 @@ bool FanBuilder::build_from_neighbours(std::uint32_t p, const OrientedPoints& po
   frame_ = {};
   const Plane plane = find_plane(p, points);
   if (plane == Plane::none) return false;
-  if (params_.variant == FanVariant::delaunay) return build_star(p, points);
-  const bool complete = build_ring(p, points);
-  if (plane == Plane::of_all) looked_at_ = neighbours_.size();
-  return complete;
+  const bool ring = params_.variant == FanVariant::ring;
+  const bool complete = ring ? build_ring(p, points) : build_star(p, points);
+  if (plane != Plane::given && plane != Plane::of_nearest) looked_at_ = neighbours_.size();
+  return complete && plane != Plane::doubtful;
 }
 
 /// Perpendicular to the point's normal; or the plane of least squares of its k nearest neighbours;
-/// or, should these be in a line, of all that are known.
+/// or, should these lie in a narrow strip, of all that are known.
 FanBuilder::Plane FanBuilder::find_plane(std::uint32_t p, const OrientedPoints& points) {
   const Vec3d given = points.normals.empty() ? Vec3d{} : Vec3d(points.normals[p]);
   if (given != Vec3d{}) {
     frame_ = TangentFrame(given);
     return Plane::given;
   }
-  const std::span<const Neighbour> all = neighbours_;
-  const auto nearest = all.first(std::min(k_, all.size()));
-  Vec3d normal = least_squares_normal(points.positions, p, nearest);
-  const bool found = normal != Vec3d{};
-  if (!found) normal = least_squares_normal(points.positions, p, all);
-  if (normal == Vec3d{}) return Plane::none;
-  frame_ = TangentFrame(normal);
-  return found ? Plane::of_nearest : Plane::of_all;
+  fitted_.assign(1, p);
+  for (const Neighbour& q : neighbours_) fitted_.push_back(q.index);
+  const std::span<const std::uint32_t> all = fitted_;
+  Variation fit = variation(points.positions, all.first(std::min(k_ + 1, all.size())));
+  const bool nearest = fit.breadth >= kNarrow;
+  if (!nearest) fit = variation(points.positions, all);
+  if (fit.least == Vec3d{}) return Plane::none;
+  frame_ = TangentFrame(upward(fit.least));
+  if (nearest) return Plane::of_nearest;
+  return fit.breadth >= kNarrow ? Plane::of_all : Plane::doubtful;
 }
 
 /// Adds a neighbour to the plane where it lies beside the point, on the same sheet.

@@ -60,7 +60,7 @@ class FanBuilder {
   const Fan& build(std::uint32_t p, const OrientedPoints& points);
 
  private:
-  enum class Plane { none, given, of_nearest, of_all };
+  enum class Plane { none, given, of_nearest, of_all, doubtful };
   bool build_from_neighbours(std::uint32_t p, const OrientedPoints& points);
   Plane find_plane(std::uint32_t p, const OrientedPoints& points);
   bool project(std::uint32_t p, const Neighbour& q, const OrientedPoints& points);
@@ -75,6 +75,7 @@ class FanBuilder {
   Fan fan_;
   std::vector<Neighbour> neighbours_;  ///< of the point, itself left out
   std::size_t looked_at_ = 0;          ///< so many of them have an influence
+  std::vector<std::uint32_t> fitted_;  ///< the point and its neighbours
   TangentFrame frame_;
   std::vector<PlanePoint> plane_;   ///< the neighbours beside the point, in the order of distance
   DirectionRing ring_;              ///< their directions, by their numbers in plane_

@@ -12,11 +12,12 @@
 
 namespace burnish {
 
-/// The fan cloud of Linsen and Prautzsch 2001: around every point a fan of triangles, each on its
-/// own. Only abstracts could be read; the details are our own.
+/// The fan cloud of Linsen and Prautzsch 2001, 2003: around every point a fan of triangles, each on
+/// its own. Only abstracts could be read; the details are our own.
 ///
 /// `ring`: the k nearest neighbours (of equally near ones that of the smaller index), projected
-/// into the plane of least squares of them and the point, sorted by angle. While two in a row are
+/// into the plane of least squares of them and the point (of more where they lie in a narrow
+/// strip), sorted by angle. While two in a row are
 /// more than `gap_angle` apart, the next nearest that lie in such a gap are taken too, until
 /// `cap` * k were looked at. Two in a row make a triangle with the point; a gap that remains stays
 /// open: a boundary point. Of neighbours in the same direction the nearest counts.
