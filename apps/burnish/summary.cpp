@@ -53,6 +53,11 @@ void say_mesh(const Session& session, const std::string& name, const TriangleMes
                            t.oriented() ? "one orientation" : "orientation disagrees"));
 }
 
+void keep_notes(const std::string& path, const GeometryFile& file, Record& record) {
+  for (const std::string& note : file.notes)
+    record.notes.push_back(fmt::format("{}: {}", path, note));
+}
+
 Result<void> save(const std::string& path, const TriangleMesh& mesh, const Session& session,
                   const Context& context) {
   context.stage("writing " + path);

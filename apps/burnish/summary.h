@@ -19,6 +19,9 @@ void say_mesh(const Session& session, const std::string& name, const TriangleMes
 Result<void> save(const std::string& path, const TriangleMesh& mesh, const Session& session,
                   const Context& context);
 
+/// Keeps what the reader of `path` left out or changed for the summary and the report.
+void keep_notes(const std::string& path, const GeometryFile& file, Record& record);
+
 /// Prints the notes of a writing, or hands its error on.
 Result<void> finish_writing(const Result<WriteReport>& written, const std::string& path,
                             const Session& session);

@@ -157,6 +157,15 @@ TEST(Program, AViewpointThatIsNoPlaceMakesAFileBad) {
   EXPECT_NE(outcome.err.find("VIEWPOINT"), std::string::npos) << outcome.err;
 }
 
+TEST(Program, SaysWhatAReaderLeftOut) {
+  const TemporaryFolder folder;
+  write_text(folder / "cloud.xyz", "0 0 0\n1 0 0\nnan nan nan\n0 1 0\n1 1 0\n");
+  const Outcome outcome = burnish({"triangulate", folder / "cloud.xyz", "-o", folder / "mesh.ply"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("1 of 5 points are not finite and are left out"), std::string::npos)
+      << outcome.out;
+}
+
 TEST(Program, QuietPrintsNothing) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "box.ply", make_box()));

@@ -66,6 +66,80 @@ TEST(Ply, ReadsStripsThatTurn) {
             (std::vector<Triangle>{{0, 1, 3}, {3, 1, 2}, {3, 2, 1}}));
 }
 
+/// A header for the square's four vertices and `faces` faces with these properties.
+std::string square_with_faces(int faces, const std::string& properties) {
+  return "ply\nformat ascii 1.0\n" + kPlyVertices + "element face " + std::to_string(faces) + "\n" +
+         properties + "end_header\n" + kSquare;
+}
+const std::string kIndices = "property list uchar int vertex_indices\n";
+const std::string kOrigin = "property uchar origin\n";
+const std::string kOwner = "property uint owner\n";
+
+TEST(Ply, HandsTheValuesOfAFaceToEveryTriangleItIsCutInto) {
+  const TriangleAttributes expected{
+      {Origin::invented, Origin::invented, Origin::interpolated, Origin::seen}, {3, 3, 0, 1}};
+  const auto read = [](const std::string& text) {
+    const GeometryFile file = sound("ply", text);
+    EXPECT_EQ(file.notes.size(), 1u);  // on the face of two corners
+    return file.mesh.triangle_attributes;
+  };
+  // A square, a face of two corners that is left out, and two triangles; the second order of
+  // properties is none that is read in a fast way.
+  EXPECT_EQ(read(square_with_faces(4, kIndices + kOrigin + kOwner) +
+                 "4 0 1 2 3 2 3\n2 0 1 2 2\n3 0 1 2 1 0\n3 0 2 3 0 1\n"),
+            expected);
+  EXPECT_EQ(read(square_with_faces(4, kOwner + kIndices + kOrigin) +
+                 "3 4 0 1 2 3 2\n2 2 0 1 2\n0 3 0 1 2 1\n1 3 0 2 3 0\n"),
+            expected);
+}
+
+TEST(Ply, ReadsTheValuesOfBigEndianFaces) {
+  const std::string head =
+      "ply\nformat binary_big_endian 1.0\nelement vertex 300\nproperty char x\nproperty char y\n"
+      "property char z\nelement face 2\n" +
+      kOwner + kIndices + kOrigin + "end_header\n" + std::string(900, '\1');
+  const std::string rows(
+      "\0\0\1\2\3\0\0\0\0\0\0\0\1\0\0\0\2\2"
+      "\0\0\0\5\3\0\0\0\2\0\0\0\1\0\0\0\0\1",
+      36);
+  const TriangleMesh mesh = sound("ply", head + rows).mesh;
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 0}}));
+  EXPECT_EQ(mesh.triangle_attributes,
+            (TriangleAttributes{{Origin::invented, Origin::interpolated}, {258, 5}}));
+}
+
+TEST(Ply, LeavesOutValuesOfFacesThatAreNone) {
+  const auto expect_note = [](const std::string& text, const std::string& note) {
+    const GeometryFile file = sound("ply", text);
+    EXPECT_EQ(file.mesh.triangle_attributes, TriangleAttributes{});
+    EXPECT_EQ(file.notes, std::vector<std::string>{note});
+  };
+  const std::string left_out = "the property 'owner' of faces is left out: ";
+  expect_note(square_with_faces(2, kIndices + kOwner) + "3 0 1 2 3\n3 0 2 3 4\n",
+              left_out + "4 is none");
+  expect_note(square_with_faces(1, kIndices + kOrigin) + "3 0 1 2 3\n",
+              "the property 'origin' of faces is left out: 3 is none");
+  // The second face element says nothing of its faces.
+  expect_note("ply\nformat ascii 1.0\n" + kPlyVertices + "element face 1\n" + kIndices + kOwner +
+                  kPlyFaces + kSquare + "3 0 1 2 0\n3 0 2 3\n",
+              left_out + "not all faces have one");
+  // Of another type it is another program's property.
+  expect_note(square_with_faces(1, kIndices + "property int owner\n") + "3 0 1 2 0\n",
+              "the property 'owner' of 'face' is left out");
+  EXPECT_EQ(problem("ply", square_with_faces(1, kIndices + kOrigin) + "3 0 1 2 256\n"),
+            "sample, line 15: '256' in face 0 of 1 is one number too many or none of its type");
+}
+
+TEST(Ply, RenumbersOwnersWhereVerticesAreLeftOut) {
+  const std::string head = "ply\nformat ascii 1.0\n" + kPlyVertices + "element face 1\n" +
+                           kIndices + kOwner + "end_header\n0 0 0\nnan 0 0\n1 1 0\n0 1 0\n";
+  const GeometryFile file = sound("ply", head + "3 0 2 3 3\n");
+  EXPECT_EQ(file.mesh.triangle_attributes.owner, std::vector<std::uint32_t>{2});
+  const GeometryFile missing = sound("ply", head + "3 0 2 3 1\n");
+  EXPECT_TRUE(missing.mesh.triangle_attributes.owner.empty());
+  EXPECT_EQ(missing.notes.size(), 2u);
+}
+
 TEST(Ply, RefusesANonFiniteVertexThatAFaceUsesAndLeavesOutOthers) {
   const std::string head = "ply\nformat ascii 1.0\n" + kPlyVertices + kPlyFaces;
   EXPECT_NE(problem("ply", head + "0 0 0\nnan 0 0\n1 1 0\n0 1 0\n3 0 1 2\n").find("not finite"),

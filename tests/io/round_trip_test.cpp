@@ -135,11 +135,22 @@ TEST(PlyRoundTrip, KeepsEveryAttributeOfAMesh) {
   const test::TemporaryFolder folder;
   TriangleMesh mesh = any_mesh(7);
   mesh.attributes = any_attributes(7, 300);
-  ASSERT_TRUE(write_mesh(folder / "mesh.ply", mesh));
-  const auto back = read_mesh(folder / "mesh.ply");
-  ASSERT_TRUE(back) << back.error().text();
-  EXPECT_EQ(back->triangles, mesh.triangles);
-  expect_same(back->attributes, mesh.attributes);
+  const TriangleAttributes known = test::any_triangle_attributes(7, 500, 300);
+  for (const bool ascii : {false, true}) {
+    for (const TriangleAttributes& part :
+         {TriangleAttributes{}, TriangleAttributes{known.origin, {}},
+          TriangleAttributes{{}, known.owner}, known}) {
+      mesh.triangle_attributes = part;
+      const auto written = write_mesh(folder / "mesh.ply", mesh, {ascii, {}});
+      ASSERT_TRUE(written) << written.error().text();
+      EXPECT_TRUE(written->notes.empty());
+      const auto back = read_mesh(folder / "mesh.ply");
+      ASSERT_TRUE(back) << back.error().text();
+      EXPECT_EQ(back->triangles, mesh.triangles);
+      EXPECT_EQ(back->triangle_attributes, mesh.triangle_attributes);
+      expect_same(back->attributes, mesh.attributes);
+    }
+  }
 }
 
 TEST(StlRoundTrip, KeepsTrianglesToTheBit) {
@@ -162,13 +173,16 @@ TEST(Write, SaysWhatAFormatCannotHold) {
   const test::TemporaryFolder folder;
   TriangleMesh mesh = any_mesh(9);
   mesh.attributes = any_attributes(9, 300);
+  mesh.triangle_attributes = test::any_triangle_attributes(9, 500, 300);
   const auto obj = write_mesh(folder / "mesh.obj", mesh);
   ASSERT_TRUE(obj);
-  EXPECT_EQ(obj->notes.size(), 1 + 3 + 8u);  // alpha; sigma, observations, origin; the channels
+  // Alpha; sigma, observations, origin; the channels; origin and owner of triangles.
+  EXPECT_EQ(obj->notes.size(), 1 + 3 + 8 + 2u);
+  EXPECT_EQ(obj->notes.back(), "OBJ cannot hold the owner of triangles: left out");
   const auto stl = write_mesh(folder / "mesh.stl", mesh);
   ASSERT_TRUE(stl);
   EXPECT_EQ(stl->notes.size(),
-            2 + 3 + 8u + 1u);  // normals, colours; ...; vertices that nothing uses
+            2 + 3 + 8 + 2 + 1u);  // normals, colours; ...; vertices that nothing uses
 }
 
 TEST(Write, RefusesToLoseGeometry) {

@@ -98,6 +98,18 @@ inline Attributes any_attributes(std::uint64_t seed, std::size_t count) {
   return a;
 }
 
+/// An origin and an owner for each of `triangles` triangles.
+inline TriangleAttributes any_triangle_attributes(std::uint64_t seed, std::size_t triangles,
+                                                  std::size_t vertices) {
+  Random random(seed, 2);
+  TriangleAttributes known;
+  for (std::size_t t = 0; t < triangles; ++t) {
+    known.origin.push_back(static_cast<Origin>(random.below(3)));
+    known.owner.push_back(static_cast<std::uint32_t>(random.below(vertices)));
+  }
+  return known;
+}
+
 /// An organized cloud with attributes and a missing pixel here and there.
 inline PointCloud any_organized_cloud(std::uint64_t seed) {
   PointCloud cloud;

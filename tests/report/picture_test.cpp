@@ -92,6 +92,28 @@ TEST(Picture, TintsInventedVertices) {
   EXPECT_GT(yellowness(invented->at(80, 60)), 50);
 }
 
+TEST(Picture, TintsInventedTrianglesAndNoOthers) {
+  TriangleMesh square;
+  square.positions = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const View view{"from above", look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0}), 0.25};
+  PictureOptions options = small();
+  const auto plain = render(square, view, options);
+  square.triangle_attributes.origin = {Origin::seen, Origin::invented};
+  const auto tinted = render(square, view, options);
+  options.origin = false;
+  const auto untinted = render(square, view, options);
+  ASSERT_TRUE(plain && tinted && untinted);
+  EXPECT_EQ(*untinted, *plain);
+  const std::size_t count = plain->pixels.size();
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < count; ++i) changed += plain->pixels[i] != tinted->pixels[i];
+  // The diagonal of the square goes through the middle: half of the picture, give or take the
+  // pixels on it.
+  EXPECT_NEAR(static_cast<double>(changed), static_cast<double>(count) / 2,
+              plain->width + plain->height);
+}
+
 TEST(Picture, PaintsNumbersAndLeavesUnknownOnesInTheSurfaceColour) {
   const TriangleMesh sphere = make_sphere(1, 3);
   std::vector<float> numbers(sphere.positions.size(), 0.f);

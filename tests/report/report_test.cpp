@@ -88,6 +88,22 @@ TEST(Report, WritesParametersAndFactsWithUnits) {
   EXPECT_EQ(count_of(page, "1.2\u202fmm"), 1u) << "a fact in metres";
 }
 
+TEST(Report, SaysHowManyTrianglesWereInventedAndShowsTheirColour) {
+  Record record;
+  record.phases = {{"original", make_box({1, 1, 1}, 1), {}}};
+  EXPECT_EQ(count_of(page_of(record), "nvented"), 0u);
+  std::vector<Origin>& origin = record.phases[0].mesh.triangle_attributes.origin;
+  origin.assign(12, Origin::seen);
+  origin[3] = origin[7] = origin[8] = Origin::invented;
+  const std::string page = page_of(record);
+  EXPECT_EQ(count_of(page, "12 vertices; 3 invented") + count_of(page, "8 vertices; 3 invented"),
+            1u);
+  EXPECT_EQ(count_of(page, "invented, where nothing was seen"), 1u);
+  EXPECT_EQ(count_of(page, "Invented triangles"), 1u);
+  EXPECT_EQ(count_of(page, "Invented area, m²"), 1u);
+  EXPECT_EQ(count_of(page, ">1.50<"), 1u) << "three halves of a side";
+}
+
 TEST(Report, NamesEveryPictureAndTableHeader) {
   const std::string page = page_of(full_record());
   EXPECT_EQ(count_of(page, "<img "), count_of(page, " alt=\"phase"));

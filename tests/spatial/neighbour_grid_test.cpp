@@ -146,6 +146,27 @@ TEST(NeighbourGrid, FindsTheDistancesThatNanoflannFinds) {
   }
 }
 
+TEST(NeighbourGrid, FindsTheSameForAllTogetherAsOneByOne) {
+  for (const std::vector<Vec3f>& points :
+       {sphere(3000, 1), graded_square(3000, 2), clusters(3), lattice(9), std::vector<Vec3f>{},
+        std::vector<Vec3f>(500, Vec3f{1, 2, 3}), std::vector<Vec3f>{{1, 2, 3}, {4, 5, 6}}}) {
+    const NeighbourGrid grid(points);
+    for (const std::size_t count : {1u, 8u, 17u, 150u}) {
+      NeighbourLists lists;
+      ASSERT_TRUE(grid.nearest_of_all(count, {}, lists));
+      EXPECT_EQ(lists.count(), std::min(count, points.size()));
+      std::vector<Neighbour> found;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        grid.nearest(points[i], count, found);
+        ASSERT_EQ(found.size(), lists.count());
+        for (std::size_t k = 0; k < found.size(); ++k) {
+          ASSERT_EQ(lists.of(i)[k], found[k].index) << "point " << i << " neighbour " << k;
+        }
+      }
+    }
+  }
+}
+
 TEST(NeighbourGrid, StaysLinearWhereAllPointsCoincide) {
   const std::vector<Vec3f> points(200000, Vec3f{1, 2, 3});
   const NeighbourGrid grid(points);

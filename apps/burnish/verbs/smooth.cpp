@@ -24,10 +24,13 @@ Result<void> smooth(const Options& options, const Session& session, const Contex
   if (auto possible = check_output(options.output); !possible) return possible;
   if (auto possible = check_report_output(options.report); !possible) return possible;
   context.stage("reading " + options.input);
-  Result<TriangleMesh> mesh = read_mesh(options.input, context.part(0, 0.2));
-  if (!mesh) return std::move(mesh).error();
+  Result<GeometryFile> file = read_geometry(options.input, context.part(0, 0.2));
+  if (!file) return std::move(file).error();
 
   Record record = new_record("Smoothing of " + options.input, session.command, {options.input});
+  keep_notes(options.input, *file, record);
+  Result<TriangleMesh> mesh = mesh_of(*std::move(file), options.input);
+  if (!mesh) return std::move(mesh).error();
   const bool keep_phases = options.report.wanted();
   if (auto done = smooth_in_phases(*mesh, *methods, keep_phases, record, context.part(0.2, 0.7));
       !done) {

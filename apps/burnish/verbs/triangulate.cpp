@@ -18,12 +18,13 @@ Result<void> triangulate(const Options& options, const Session& session, const C
   if (!methods) return methods.error();
   if (auto possible = check_output(options.output); !possible) return possible;
   context.stage("reading " + options.input);
-  Result<PointCloud> cloud = read_cloud(options.input, context.part(0, 0.2));
-  if (!cloud) return std::move(cloud).error();
+  Result<GeometryFile> file = read_geometry(options.input, context.part(0, 0.2));
+  if (!file) return std::move(file).error();
 
   Record record = new_record("Triangulation of " + options.input, session.command, {options.input});
-  const Result<TriangleMesh> mesh =
-      triangulate_cloud(*cloud, methods->back(), record, context.part(0.2, 0.9));
+  keep_notes(options.input, *file, record);
+  const Result<TriangleMesh> mesh = triangulate_cloud(cloud_of(*std::move(file)), methods->back(),
+                                                      record, context.part(0.2, 0.9));
   if (!mesh) return mesh.error();
   if (auto written = save(options.output, *mesh, session, context.part(0.9, 1)); !written)
     return written;

@@ -7,6 +7,7 @@
 #include "burnish/smoothing/gaussian.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
+#include "burnish/triangulation/fan_cloud_mesh.h"
 #include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/global.h"
 #include "burnish/triangulation/organized.h"
@@ -35,6 +36,9 @@ std::span<const MergeOperation> merge_operations() {
 
 std::span<const TriangulateOperation> triangulate_operations() {
   static const std::vector<TriangulateOperation> list{
+      creation_operation("fan_cloud", triangulate_fan_cloud, &Triangulation::mesh,
+                         "A fan of triangles around every point, each on its own.",
+                         "linsen_prautzsch_2001"),
       creation_operation("global", triangulate_global, &Triangulation::mesh,
                          "One orientable manifold surface from what the local fans agree on.",
                          "linsen_prautzsch_2001"),

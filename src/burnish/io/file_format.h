@@ -19,6 +19,8 @@ struct GeometryView {
   Frame frame;
   std::optional<GridSize> grid;
   std::optional<Vec3d> viewpoint;
+  std::span<const Origin> triangle_origin{};        ///< empty, or one per triangle
+  std::span<const std::uint32_t> triangle_owner{};  ///< likewise
 
   /// The position in the world.
   Vec3d world(std::size_t i) const { return frame.origin + Vec3d(positions[i]); }
@@ -33,6 +35,7 @@ struct Holds {
   bool channels = false;
   bool doubles = false;  ///< positions beyond float precision
   bool grid = false, viewpoint = false;
+  bool triangle_attributes = false;
 };
 
 /// One row of the table of formats.

@@ -40,6 +40,13 @@ Result<void> leave_out_non_finite(GeometryFile& file, const std::string& name) {
       v = renamed[v];
     }
   }
+  std::vector<std::uint32_t>& owner = mesh.triangle_attributes.owner;
+  if (std::any_of(owner.begin(), owner.end(),
+                  [&](std::uint32_t v) { return !is_finite(mesh.positions[v]); })) {
+    owner.clear();
+    file.notes.push_back("the owners of triangles are left out: not all of them are finite");
+  }
+  for (std::uint32_t& v : owner) v = renamed[v];
   mesh.positions = gather(mesh.positions, kept);
   mesh.attributes = gather(mesh.attributes, kept);
   file.notes.push_back(fmt::format("{} of {} {} are not finite and are left out",

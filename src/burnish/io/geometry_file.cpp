@@ -125,6 +125,8 @@ Result<std::vector<std::string>> losses(const FileFormat& format, const Geometry
   lose(view.framed(), holds.doubles || (options.ascii && format.has_ascii),
        "coordinates beyond float precision");
   lose(view.viewpoint.has_value(), holds.viewpoint, "the viewpoint");
+  lose(!view.triangle_origin.empty(), holds.triangle_attributes, "the origin of triangles");
+  lose(!view.triangle_owner.empty(), holds.triangle_attributes, "the owner of triangles");
   if (!holds.points) {
     std::vector<bool> used(view.positions.size());
     for (const Triangle& triangle : view.triangles) {
@@ -187,7 +189,8 @@ std::span<const FileFormat> geometry_formats() {
         .channels = true,
         .doubles = true,
         .grid = true,
-        .viewpoint = true},
+        .viewpoint = true,
+        .triangle_attributes = true},
        true,
        true,
        recognise_ply,
@@ -257,16 +260,18 @@ Result<GeometryFile> read_geometry(const fs::path& path, const Context& context)
   }
 }
 
+Result<TriangleMesh> mesh_of(GeometryFile file, const fs::path& path) {
+  if (!file.mesh.triangles.empty()) return std::move(file.mesh);
+  return Error{ErrorCode::bad_geometry,
+               fmt::format("a mesh was expected, the file has {} points and no triangles",
+                           file.mesh.positions.size()),
+               path.string()};
+}
+
 Result<TriangleMesh> read_mesh(const fs::path& path, const Context& context) {
   auto file = read_geometry(path, context);
   if (!file) return file.error();
-  if (file->mesh.triangles.empty()) {
-    return Error{ErrorCode::bad_geometry,
-                 fmt::format("a mesh was expected, the file has {} points and no triangles",
-                             file->mesh.positions.size()),
-                 path.string()};
-  }
-  return std::move(file->mesh);
+  return mesh_of(*std::move(file), path);
 }
 
 PointCloud cloud_of(GeometryFile file) {
@@ -285,8 +290,14 @@ Result<WriteReport> write_mesh(const fs::path& path, const TriangleMesh& mesh,
   const auto format = format_to_write(path);
   if (!format) return format.error();
   if (auto sound = check(mesh); !sound) return located(sound.error(), path);
-  const GeometryView view{mesh.positions, mesh.triangles, mesh.attributes,
-                          mesh.frame,     std::nullopt,   std::nullopt};
+  const GeometryView view{mesh.positions,
+                          mesh.triangles,
+                          mesh.attributes,
+                          mesh.frame,
+                          std::nullopt,
+                          std::nullopt,
+                          mesh.triangle_attributes.origin,
+                          mesh.triangle_attributes.owner};
   return write_format(path, **format, view, options, context);
 }
 

@@ -25,6 +25,9 @@ struct GeometryFile {
 /// The points of a file: of a mesh its vertices.
 PointCloud cloud_of(GeometryFile file);
 
+/// The mesh of the file at `path`. Errors: bad_geometry where it has no triangles.
+Result<TriangleMesh> mesh_of(GeometryFile file, const std::filesystem::path& path);
+
 struct WriteOptions {
   bool ascii = false;                 ///< text, where the format has both
   std::vector<std::string> comments;  ///< into the header; line breaks become blanks

@@ -76,6 +76,7 @@ class PcdReader {
   Result<void> read_ascii(VertexColumns& columns);
   Result<void> read_binary(VertexColumns& columns);
   Result<void> read_compressed(VertexColumns& columns);
+  std::uint64_t most_unpacked_points() const;
   /// Writers that map the file fill its last page with zeros.
   bool only_zeros_left() const {
     const std::string_view rest = bytes_.substr(cursor_.offset());
@@ -292,6 +293,14 @@ Result<void> PcdReader::read_binary(VertexColumns& columns) {
 }
 
 /// All values of the first field, then all of the second, ..., packed with LZF.
+/// How many points of a compressed file, each of which may take less than a bit, can be unpacked so
+/// that they and what is made of them stay within 64 MB + 8 x the file.
+std::uint64_t PcdReader::most_unpacked_points() const {
+  std::uint64_t bytes = row_bytes_;
+  for (const Kept& kept : kept_) bytes += std::max<std::size_t>(4, kept.size);
+  return ((std::uint64_t{56} << 20) + 7 * std::uint64_t{size_}) / bytes;
+}
+
 Result<void> PcdReader::read_compressed(VertexColumns& columns) {
   std::uint32_t packed_size = 0;
   std::uint32_t size = 0;
@@ -306,8 +315,7 @@ Result<void> PcdReader::read_compressed(VertexColumns& columns) {
   if (!packed)
     return cursor_.byte_error(fmt::format("{} bytes of data were promised, {} are left",
                                           packed_size, cursor_.remaining()));
-  // What is unpacked and what is made of it stay within 64 MB + 8 x the file.
-  if (size > (std::uint64_t{26} << 20) + 3 * std::uint64_t{size_}) {
+  if (points > most_unpacked_points()) {
     return cursor_.byte_error(
         fmt::format(
             "the data unpack to {} bytes, more than fits the memory allowed for a file of {}", size,
@@ -342,11 +350,10 @@ Result<GeometryFile> PcdReader::read() {
   if (!known)
     return cursor_.line_error(
         fmt::format("DATA '{}' is none of ascii, binary, binary_compressed", shown(header_.data)));
-  // A point of a compressed file may take less than a bit; its size is checked before it is
-  // unpacked.
-  const std::uint64_t expected =
-      std::min<std::uint64_t>(*header_.points, header_.data == "binary_compressed" ? 0 : size_);
-  VertexColumns columns(kept_fields(), expected, origin_);
+  std::vector<Field> fields = kept_fields();
+  const std::uint64_t most =
+      header_.data == "binary_compressed" ? most_unpacked_points() : std::uint64_t{size_};
+  VertexColumns columns(std::move(fields), std::min(*header_.points, most), origin_);
   if (!columns.has_positions()) return cursor_.line_error("the FIELDS have no x, y and z");
   wide_ = columns.wide_positions() && !header_.facts.frame_origin;
   auto ok = header_.data == "ascii"    ? read_ascii(columns)

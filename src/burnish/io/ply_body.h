@@ -40,4 +40,8 @@ Result<void> read_ply_vertices(PlyBody& body, const PlyElement& element);
 /// vertices must be there already. Errors: bad_file, unsupported, cancelled.
 Result<void> read_ply_faces(PlyBody& body, const PlyElement& element, const PlyProperty& indices);
 
+/// Leaves out, with a note, the triangles' origins or owners where one is none, or where not all
+/// faces have them: other programs may mean something else by the name.
+void check_triangle_attributes(GeometryFile& file);
+
 }  // namespace burnish

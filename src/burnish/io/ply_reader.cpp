@@ -99,6 +99,7 @@ Result<GeometryFile> PlyReader::read() {
     cursor.go_to(place);
     if (auto ok = read_element(*element); !ok) return ok.error();
   }
+  check_triangle_attributes(body_.file);
   body_.file.grid = facts().grid;
   body_.file.viewpoint = facts().viewpoint;
   return std::move(body_.file);

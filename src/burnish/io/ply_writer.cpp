@@ -40,8 +40,38 @@ void write_header(Output& out, const GeometryView& view, const WriteOptions& opt
   if (!view.triangles.empty()) {
     out.text("element face ").number(view.triangles.size());
     out.text("\nproperty list uchar int vertex_indices\n");
+    if (!view.triangle_origin.empty()) out.text("property uchar origin\n");
+    if (!view.triangle_owner.empty()) out.text("property uint owner\n");
   }
   out.text("end_header\n");
+}
+
+/// Rows `first` to `first + count` of the faces as lines.
+void print_faces(Output& out, const GeometryView& view, std::size_t first, std::size_t count) {
+  for (std::size_t t = first; t < first + count; ++t) {
+    out.character('3');
+    for (const std::uint32_t v : view.triangles[t]) out.character(' ').number(v);
+    if (!view.triangle_origin.empty())
+      out.character(' ').number(static_cast<unsigned>(view.triangle_origin[t]));
+    if (!view.triangle_owner.empty()) out.character(' ').number(view.triangle_owner[t]);
+    out.character('\n');
+  }
+}
+
+/// The same as bytes, little endian.
+void pack_faces(Output& out, const GeometryView& view, std::size_t first, std::size_t count) {
+  const std::size_t origin_bytes = view.triangle_origin.empty() ? 0 : sizeof(Origin);
+  const std::size_t owner_bytes = view.triangle_owner.empty() ? 0 : sizeof(std::uint32_t);
+  char* at = out.room((1 + sizeof(Triangle) + origin_bytes + owner_bytes) * count);
+  for (std::size_t t = first; t < first + count; ++t) {
+    *at++ = 3;
+    std::memcpy(at, view.triangles[t].data(), sizeof(Triangle));
+    at += sizeof(Triangle);
+    if (origin_bytes > 0) std::memcpy(at, &view.triangle_origin[t], origin_bytes);
+    at += origin_bytes;
+    if (owner_bytes > 0) std::memcpy(at, &view.triangle_owner[t], owner_bytes);
+    at += owner_bytes;
+  }
 }
 
 }  // namespace
@@ -52,18 +82,7 @@ void write_ply(Output& out, const GeometryView& view, const WriteOptions& option
   write_header(out, view, options, rows);
   rows.write(out, options.ascii);
   write_rows(out, view.triangles.size(), [&](std::size_t first, std::size_t count) {
-    if (options.ascii) {
-      for (const auto& [a, b, c] : view.triangles.subspan(first, count)) {
-        out.text("3 ").number(a).character(' ').number(b).character(' ').number(c).character('\n');
-      }
-      return;
-    }
-    char* at = out.room(13 * count);
-    for (const Triangle& triangle : view.triangles.subspan(first, count)) {
-      *at = 3;
-      std::memcpy(at + 1, triangle.data(), 12);
-      at += 13;
-    }
+    options.ascii ? print_faces(out, view, first, count) : pack_faces(out, view, first, count);
   });
 }
 

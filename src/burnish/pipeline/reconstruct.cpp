@@ -108,21 +108,23 @@ Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& rec
     const Context share = context.part(done / count, (done + 1) / count);
     share.stage(fmt::format("reading scan {} of {}", i + 1, scans.size()));
     const auto start = std::chrono::steady_clock::now();
-    Result<PointCloud> cloud = scans.read(i, share.part(0, 0.5));
-    if (!cloud) return std::move(cloud).error();
-    if (recipe.crop) crop(*cloud, *recipe.crop);
-    points += count_points(*cloud);
+    Result<Scan> scan = scans.read(i, share.part(0, 0.5));
+    if (!scan) return std::move(scan).error();
+    record.notes.insert(record.notes.end(), scan->notes.begin(), scan->notes.end());
+    PointCloud& cloud = scan->cloud;
+    if (recipe.crop) crop(cloud, *recipe.crop);
+    points += count_points(cloud);
     reading.seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    judge.see_raw_points(*cloud);
-    if (cloud->grid) {
+    judge.see_raw_points(cloud);
+    if (cloud.grid) {
       Record single;
-      if (auto clean = clean_cloud(*cloud, recipe.clean_scan, single, share.part(0.5, 1)); !clean) {
+      if (auto clean = clean_cloud(cloud, recipe.clean_scan, single, share.part(0.5, 1)); !clean) {
         return clean.error();
       }
       for (std::size_t k = 0; k < cleaning.size(); ++k) add_up(cleaning[k], single.steps[k]);
     }
-    clouds.push_back(*std::move(cloud));
+    clouds.push_back(std::move(cloud));
   }
   if (points == 0) {
     return Error{

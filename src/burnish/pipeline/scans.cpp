@@ -36,10 +36,12 @@ class FrameScans : public Scans {
 
   std::size_t size() const override { return frames_.size(); }
 
-  Result<PointCloud> read(std::size_t i, const Context& context) const override {
+  Result<Scan> read(std::size_t i, const Context& context) const override {
     const Result<DepthFrame> frame = frames_.read(i);
     if (!frame) return frame.error();
-    return unproject(*frame, {}, context);
+    Result<PointCloud> cloud = unproject(*frame, {}, context);
+    if (!cloud) return std::move(cloud).error();
+    return Scan{*std::move(cloud), {}};
   }
 
   Viewpoint viewpoint() const override {
@@ -77,25 +79,27 @@ class CloudScans : public Scans {
 
   std::size_t size() const override { return files_.size(); }
 
-  Result<PointCloud> read(std::size_t i, const Context& context) const override {
-    Result<PointCloud> cloud = read_cloud(files_[i], context.part(0, 0.5));
-    if (!cloud) return cloud;
+  Result<Scan> read(std::size_t i, const Context& context) const override {
+    Result<GeometryFile> file = read_geometry(files_[i], context.part(0, 0.5));
+    if (!file) return std::move(file).error();
+    Scan scan;
+    for (const std::string& note : file->notes)
+      scan.notes.push_back(fmt::format("{}: {}", files_[i].string(), note));
+    PointCloud& cloud = scan.cloud = cloud_of(*std::move(file));
     const auto measured = [](const Vec3f& p) { return is_finite(p); };
-    if (std::none_of(cloud->positions.begin(), cloud->positions.end(), measured)) {
+    if (std::none_of(cloud.positions.begin(), cloud.positions.end(), measured)) {
       return Error{ErrorCode::bad_geometry, "holds no point", files_[i].string()};
     }
-    if (cloud->attributes.normals.empty()) {
-      if (auto estimated = estimate_normals(*cloud, {}, context.part(0.5, 1)); !estimated) {
+    Attributes& attributes = cloud.attributes;
+    if (attributes.normals.empty()) {
+      if (auto estimated = estimate_normals(cloud, {}, context.part(0.5, 1)); !estimated)
         return estimated.error();
-      }
     }
-    if (cloud->grid && cloud->attributes.sigma.empty()) add_sigma(*cloud, sensor_);
-    if (cloud->attributes.observations.empty())
-      cloud->attributes.observations.assign(cloud->positions.size(), 1);
-    if (cloud->attributes.origin.empty())
-      cloud->attributes.origin.assign(cloud->positions.size(), Origin::seen);
-    if (poses_.empty()) return cloud;
-    return transformed(*std::move(cloud), poses_[i]);
+    if (cloud.grid && attributes.sigma.empty()) add_sigma(cloud, sensor_);
+    if (attributes.observations.empty()) attributes.observations.assign(cloud.positions.size(), 1);
+    if (attributes.origin.empty()) attributes.origin.assign(cloud.positions.size(), Origin::seen);
+    if (!poses_.empty()) cloud = transformed(std::move(cloud), poses_[i]);
+    return scan;
   }
 
   /// Depth cameras write organized clouds in their own coordinates, z forward.
@@ -154,7 +158,8 @@ std::string lower_ending(const fs::path& path) {
   return ending;
 }
 
-/// The organized clouds of a folder by name; none where it holds depth images or no clouds.
+/// The organized clouds of a folder in natural order; none where it holds depth images or no
+/// clouds.
 std::vector<fs::path> clouds_in(const fs::path& folder) {
   std::vector<fs::path> clouds;
   std::error_code unreadable;
@@ -162,7 +167,9 @@ std::vector<fs::path> clouds_in(const fs::path& folder) {
     if (is_depth_image(entry.path())) return {};
     if (lower_ending(entry.path()) == ".pcd") clouds.push_back(entry.path());
   }
-  std::sort(clouds.begin(), clouds.end());
+  std::sort(clouds.begin(), clouds.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
   return clouds;
 }
 
@@ -195,8 +202,11 @@ Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& given) {
     if (!fs::exists(path, unreadable))
       return Error{ErrorCode::not_found, "no such file or folder", path.string()};
   }
-  const ScanInputs inputs{unfolded(given.paths), given.frames};
+  ScanInputs inputs{unfolded(given.paths), given.frames};
   const bool images = is_image_or_folder(inputs.paths.front());
+  const bool one_folder = given.paths.size() == 1 && is_folder(given.paths.front());
+  if (!images && one_folder && inputs.frames.poses.empty())
+    inputs.frames.poses = find_pose_list(given.paths).value_or("");
   for (const fs::path& path : inputs.paths) {
     if (is_image_or_folder(path) != images) {
       return Error{ErrorCode::invalid_argument, "depth frames and clouds cannot be mixed",

@@ -22,14 +22,20 @@ struct ScanInputs {
   FrameOptions frames;
 };
 
-/// One or more scans, each read as a cloud in world coordinates, with normals.
+/// Points in world coordinates, with normals, and what their reader left out or changed.
+struct Scan {
+  PointCloud cloud;
+  std::vector<std::string> notes;
+};
+
+/// One or more scans.
 class Scans {
  public:
   virtual ~Scans() = default;
   virtual std::size_t size() const = 0;
 
   /// Errors: those of reading the file, and bad_geometry where it holds no point.
-  virtual Result<PointCloud> read(std::size_t i, const Context& context) const = 0;
+  virtual Result<Scan> read(std::size_t i, const Context& context) const = 0;
 
   /// Where the first camera stood, provided that it was one: that scan 0 is organized.
   virtual Viewpoint viewpoint() const = 0;
@@ -40,8 +46,10 @@ class Scans {
   std::vector<std::string> notes_;
 };
 
-/// Recognises what `inputs` are. Errors: not_found; bad_file; invalid_argument where frames and
-/// clouds are mixed, where there are several scans and no poses, or as many as there are not.
+/// Recognises what `inputs` are. A folder of PCD is read in natural order (9 before 10), and with
+/// the list of poses that lies in it where none is given, as folders of frames are. Errors:
+/// not_found; bad_file; invalid_argument where frames and clouds are mixed, where there are several
+/// scans and no poses, or as many as there are not.
 Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& inputs);
 
 }  // namespace burnish

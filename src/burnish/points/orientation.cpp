@@ -2,126 +2,218 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <tuple>
-
-#include "burnish/core/adjacency.h"
-#include "burnish/core/disjoint_sets.h"
+#include <utility>
 
 namespace burnish {
 namespace {
 
-struct Link {
-  float weight;
-  std::uint32_t a, b;  ///< a < b
+/// Lighter links are all the same: 20 degrees between two normals.
+constexpr double kLight = 1.0 / 16;
+constexpr std::size_t kIslandNeighbours = 96;
 
-  friend bool operator<(const Link& l, const Link& m) {
-    return std::tie(l.weight, l.a, l.b) < std::tie(m.weight, m.a, m.b);
-  }
-};
+/// So many points are dealt with between two looks at whether the run was cancelled.
+constexpr std::size_t kBetweenLooks = std::size_t{1} << 16;
 
 /// How far the normals of i and j look to the same side, -1 to 1. Along an arc from i to j the
 /// normals are mirror images in the plane that bisects it, so that one is compared with the other's
 /// mirror image: this holds across creases, where the normals themselves are at right angles.
 double agreement(std::span<const Vec3f> positions, const std::vector<Vec3f>& normals,
                  std::uint32_t i, std::uint32_t j) {
-  const Vec3d along = normalized(Vec3d(positions[j]) - Vec3d(positions[i]));
+  const Vec3d between = Vec3d(positions[j]) - Vec3d(positions[i]);
   const Vec3d m(normals[i]), n(normals[j]);
-  const double rise_i = dot(m, along), rise_j = dot(n, along);
-  const double steep = std::max(rise_i * rise_i, rise_j * rise_j);
-  return (dot(m, n) - 2 * rise_i * rise_j) * (1 - steep);
+  const double length = squared_norm(between);
+  if (!(length > 0)) return dot(m, n);
+  const double rise_i = dot(m, between), rise_j = dot(n, between);
+  const double steep = std::max(rise_i * rise_i, rise_j * rise_j) / length;
+  return (dot(m, n) - 2 * rise_i * rise_j / length) * (1 - steep);
 }
 
-using LinkIterator = std::vector<Link>::iterator;
+/// Disjoint sets whose elements know whether they look the other way than their set's root.
+class OrientedSets {
+ public:
+  struct Place {
+    std::uint32_t root;
+    bool opposite;
+  };
 
-/// Sorts in pieces that are short enough to stop between them.
-void sort_links(LinkIterator begin, LinkIterator end, const Context& context) {
-  constexpr std::ptrdiff_t kPiece = 200000;
-  if (context.cancelled()) return;
-  if (end - begin <= kPiece) {
-    std::sort(begin, end);
-    return;
+  explicit OrientedSets(std::size_t count) : parent_(count), opposite_(count), size_(count, 1) {
+    for (std::uint32_t i = 0; i < count; ++i) parent_[i] = i;
   }
-  const LinkIterator middle = begin + (end - begin) / 2;
-  std::nth_element(begin, middle, end);
-  sort_links(begin, middle, context);
-  sort_links(middle, end, context);
-}
 
-/// The links of the minimum spanning tree, Kruskal's way; of a part where it is cancelled.
-std::vector<Link> spanning_links(std::span<const Vec3f> positions,
-                                 std::span<const std::uint32_t> neighbours, std::size_t count,
-                                 const std::vector<Vec3f>& normals, const Context& context) {
-  constexpr std::uint32_t kCheckStop = 1 << 14;
-  std::vector<Link> links;
-  for (std::uint32_t i = 0; i < normals.size(); ++i) {
-    if (i % kCheckStop == 0 && context.cancelled()) return {};
-    if (normals[i] == Vec3f{}) continue;
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t j = neighbours[i * count + k];
-      if (j == i || normals[j] == Vec3f{}) continue;
-      const auto back = neighbours.subspan(j * count, count);
-      if (j < i && std::find(back.begin(), back.end(), i) != back.end()) continue;  // had it
-      const double weight =
-          1 - std::abs(agreement(positions, normals, std::min(i, j), std::max(i, j)));
-      links.push_back({static_cast<float>(weight), std::min(i, j), std::max(i, j)});
+  Place find(std::uint32_t i) {
+    std::uint8_t opposite = 0;
+    while (parent_[i] != i) {
+      const std::uint32_t p = parent_[i];
+      opposite_[i] ^= opposite_[p];
+      parent_[i] = parent_[p];
+      opposite ^= opposite_[i];
+      i = parent_[i];
     }
+    return {i, opposite != 0};
   }
-  sort_links(links.begin(), links.end(), context);
-  if (context.cancelled()) return {};
-  DisjointSets sets(normals.size());
-  std::erase_if(links, [&](const Link& link) { return !sets.unite(link.a, link.b); });
-  return links;
-}
 
-/// The tree as lists of neighbours.
-Adjacency tree_of(const std::vector<Link>& links, std::size_t count) {
-  std::vector<std::uint32_t> offsets(count + 1), items(2 * links.size());
-  for (const Link& link : links) ++offsets[link.a + 1], ++offsets[link.b + 1];
-  for (std::size_t i = 0; i < count; ++i) offsets[i + 1] += offsets[i];
-  std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
-  for (const Link& link : links) {
-    items[next[link.a]++] = link.b;
-    items[next[link.b]++] = link.a;
+  std::uint32_t size(std::uint32_t root) const { return size_[root]; }
+
+  void unite(const Place& a, const Place& b, bool opposite) {
+    const auto [large, small] =
+        size_[a.root] >= size_[b.root] ? std::pair{a.root, b.root} : std::pair{b.root, a.root};
+    parent_[small] = large;
+    opposite_[small] = static_cast<std::uint8_t>((a.opposite != b.opposite) != opposite);
+    size_[large] += size_[small];
   }
-  return {std::move(offsets), std::move(items)};
+
+ private:
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint8_t> opposite_;  ///< to the parent; 0 for a root
+  std::vector<std::uint32_t> size_;     ///< of a root's set
+};
+
+struct Link {
+  double weight;
+  std::uint32_t a, b;
+
+  friend bool operator<(const Link& l, const Link& m) {
+    return std::tie(l.weight, l.a, l.b) < std::tie(m.weight, m.a, m.b);
+  }
+};
+
+/// Kruskal's spanning tree, which need not be kept: the sets know how their points look. Links
+/// between points that are in one set already are never weighed, and these are nearly all.
+class SpanningTree {
+ public:
+  SpanningTree(std::span<const Vec3f> positions, const NeighbourGrid& grid,
+               const NeighbourLists& neighbours, const std::vector<Vec3f>& normals,
+               const Context& context)
+      : positions_(positions),
+        grid_(grid),
+        neighbours_(neighbours),
+        normals_(normals),
+        context_(context),
+        sets_(normals.size()),
+        apart_(normals.size() -
+               static_cast<std::size_t>(std::count(normals.begin(), normals.end(), Vec3f{}))) {}
+
+  /// Returns false where cancelled.
+  bool build() { return join_light() && join_heavy() && join_islands(); }
+  OrientedSets& sets() { return sets_; }
+
+ private:
+  /// The light links, which are as good as each other: those to the nearest neighbours first.
+  bool join_light() {
+    for (std::size_t k = 0; k < neighbours_.count() && apart_ > 1; ++k) {
+      for (std::uint32_t i = 0; i < normals_.size(); ++i) {
+        if (i % kBetweenLooks == 0 && context_.cancelled()) return false;
+        const auto link = link_between_sets(i, neighbours_.of(i)[k]);
+        if (link && link->weight < kLight) join(*link);
+      }
+    }
+    return true;
+  }
+
+  /// The others, from the lightest to the heaviest.
+  bool join_heavy() {
+    std::vector<Link> heavy;
+    for (std::uint32_t i = 0; i < normals_.size() && apart_ > 1; ++i) {
+      if (i % kBetweenLooks == 0 && context_.cancelled()) return false;
+      for (std::size_t k = 0; k < neighbours_.count(); ++k) {
+        if (auto link = link_between_sets(i, neighbours_.of(i)[k])) heavy.push_back(*link);
+      }
+    }
+    std::sort(heavy.begin(), heavy.end());
+    for (const Link& link : heavy) join(link);
+    return !context_.cancelled();
+  }
+
+  /// Where the sampling is much denser along lines than across them, all neighbours may be on the
+  /// line: what is apart from the largest set looks further for light links.
+  bool join_islands() {
+    if (apart_ <= 1) return true;
+    const std::uint32_t largest = largest_set();
+    std::vector<Neighbour> found;
+    for (std::uint32_t i = 0; i < normals_.size(); ++i) {
+      if (i % kBetweenLooks == 0 && context_.cancelled()) return false;
+      if (normals_[i] == Vec3f{} || sets_.find(i).root == largest) continue;
+      grid_.nearest(positions_[i], kIslandNeighbours, found);
+      for (const Neighbour& neighbour : found) {
+        const auto link = link_between_sets(i, neighbour.index);
+        if (link && link->weight < kLight) join(*link);
+      }
+    }
+    return true;
+  }
+
+  std::uint32_t largest_set() {
+    std::uint32_t largest = 0;
+    for (std::uint32_t i = 0; i < normals_.size(); ++i) {
+      const std::uint32_t root = sets_.find(i).root;
+      if (sets_.size(root) > sets_.size(largest)) largest = root;
+    }
+    return largest;
+  }
+
+  /// The link of points i and j, if it joins two sets.
+  std::optional<Link> link_between_sets(std::uint32_t i, std::uint32_t j) {
+    if (normals_[i] == Vec3f{} || normals_[j] == Vec3f{}) return {};
+    if (sets_.find(i).root == sets_.find(j).root) return {};
+    const std::uint32_t a = std::min(i, j), b = std::max(i, j);
+    return Link{1 - std::abs(agreement(positions_, normals_, a, b)), a, b};
+  }
+
+  void join(const Link& link) {
+    const OrientedSets::Place a = sets_.find(link.a), b = sets_.find(link.b);
+    if (a.root == b.root) return;
+    sets_.unite(a, b, agreement(positions_, normals_, link.a, link.b) < 0);
+    --apart_;
+  }
+
+  std::span<const Vec3f> positions_;
+  const NeighbourGrid& grid_;
+  const NeighbourLists& neighbours_;
+  const std::vector<Vec3f>& normals_;
+  const Context& context_;
+  OrientedSets sets_;
+  std::size_t apart_;  ///< sets that hold a normal
+};
+
+/// The point of largest z of every set, at its root's place. Returns the number of sets.
+std::size_t find_tops(std::span<const Vec3f> positions, const std::vector<Vec3f>& normals,
+                      OrientedSets& sets, std::vector<std::uint32_t>& tops) {
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  tops.assign(normals.size(), kNone);
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < normals.size(); ++i) {
+    if (normals[i] == Vec3f{}) continue;
+    std::uint32_t& top = tops[sets.find(i).root];
+    count += top == kNone;
+    if (top == kNone || positions[i].z > positions[top].z) top = i;
+  }
+  return count;
 }
 
 }  // namespace
 
-std::size_t orient_consistently(std::span<const Vec3f> positions,
-                                std::span<const std::uint32_t> neighbours, std::size_t count,
-                                std::vector<Vec3f>& normals, const Context& context) {
-  const Adjacency tree =
-      tree_of(spanning_links(positions, neighbours, count, normals, context), normals.size());
-  if (context.cancelled()) return 0;
-  std::vector<std::uint32_t> from_top;
+std::size_t orient_consistently(std::span<const Vec3f> positions, const NeighbourGrid& grid,
+                                const NeighbourLists& neighbours, std::vector<Vec3f>& normals,
+                                const Context& context) {
+  SpanningTree tree(positions, grid, neighbours, normals, context);
+  if (!tree.build()) return 0;
+  std::vector<std::uint32_t> tops;
+  const std::size_t components = find_tops(positions, normals, tree.sets(), tops);
+  std::vector<bool> turned(normals.size());
   for (std::uint32_t i = 0; i < normals.size(); ++i) {
-    if (normals[i] != Vec3f{}) from_top.push_back(i);
+    if (normals[i] == Vec3f{}) continue;
+    const OrientedSets::Place place = tree.sets().find(i);
+    const std::uint32_t top = tops[place.root];
+    turned[i] = (place.opposite != tree.sets().find(top).opposite) != (normals[top].z < 0);
   }
-  std::stable_sort(from_top.begin(), from_top.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return positions[a].z > positions[b].z;
-  });
-
-  std::size_t components = 0;
-  std::vector<std::uint8_t> oriented(normals.size());
-  std::vector<std::uint32_t> open;
-  for (const std::uint32_t top : from_top) {
-    if (oriented[top]) continue;
-    ++components;
-    if (normals[top].z < 0) normals[top] = -normals[top];
-    oriented[top] = 1;
-    open.assign(1, top);
-    while (!open.empty()) {
-      const std::uint32_t i = open.back();
-      open.pop_back();
-      for (const std::uint32_t j : tree.row(i)) {
-        if (oriented[j]) continue;
-        if (agreement(positions, normals, i, j) < 0) normals[j] = -normals[j];
-        oriented[j] = 1;
-        open.push_back(j);
-      }
-    }
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (turned[i]) normals[i] = -normals[i];
   }
+  context.progress(1);
   return components;
 }
 

@@ -59,8 +59,12 @@ void write_tiles(HtmlWriter& html, const Record& record) {
   if (!record.phases.empty()) {
     const TriangleMesh& mesh = record.phases.back().mesh;
     const Topology shape = topology(mesh);
-    write_tile(html, count_text(mesh.triangles.size()),
-               fmt::format("triangles on {} vertices", count_text(mesh.positions.size())));
+    const auto& origins = mesh.triangle_attributes.origin;
+    const auto invented = std::count(origins.begin(), origins.end(), Origin::invented);
+    std::string on = fmt::format("triangles on {} vertices", count_text(mesh.positions.size()));
+    if (invented > 0)
+      on += fmt::format("; {} invented", count_text(static_cast<std::size_t>(invented)));
+    write_tile(html, count_text(mesh.triangles.size()), on);
     const std::string pieces =
         shape.components == 1 ? "one piece" : count_text(shape.components) + " pieces";
     write_tile(html, shape.closed() ? "closed" : count_text(shape.boundary_loops),
@@ -112,9 +116,12 @@ void write_color_legend(HtmlWriter& html, const Record& record) {
   const PictureOptions colors;
   bool interpolated = false, invented = false;
   for (const Phase& phase : record.phases) {
-    for (const Origin origin : phase.mesh.attributes.origin) {
-      interpolated = interpolated || origin == Origin::interpolated;
-      invented = invented || origin == Origin::invented;
+    for (const std::vector<Origin>* origins :
+         {&phase.mesh.attributes.origin, &phase.mesh.triangle_attributes.origin}) {
+      for (const Origin origin : *origins) {
+        interpolated = interpolated || origin == Origin::interpolated;
+        invented = invented || origin == Origin::invented;
+      }
     }
   }
   html.open("p", {{"class", "legend"}});

@@ -69,6 +69,20 @@ double angle_at(const Vec3d& corner, const Vec3d& a, const Vec3d& b) {
   return std::atan2(norm(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi;
 }
 
+/// How many triangles close a hole, and how much of the surface they are.
+void add_invented_triangles(const TriangleMesh& mesh, Facts& facts) {
+  const std::vector<Origin>& origin = mesh.triangle_attributes.origin;
+  if (origin.empty()) return;
+  double count = 0, area = 0;
+  for (std::size_t t = 0; t < origin.size(); ++t) {
+    if (origin[t] != Origin::invented) continue;
+    ++count;
+    area += norm(area_vector(mesh, t)) / 2;
+  }
+  facts.push_back({"invented_triangles", count, ""});
+  facts.push_back({"invented_area", area, "m2"});
+}
+
 }  // namespace
 
 Table topology_table(const Record& record) {
@@ -113,7 +127,7 @@ Table topology_table(const Record& record) {
 }
 
 Table trust_table(const Record& record) {
-  Table table{"How far to trust the vertices", phase_names(record), {}};
+  Table table{"How far to trust vertices and triangles", phase_names(record), {}};
   std::vector<Facts> facts;
   for (const Phase& phase : record.phases) {
     const Attributes& attributes = phase.mesh.attributes;
@@ -135,6 +149,7 @@ Table trust_table(const Record& record) {
       std::vector<std::uint32_t> observations = attributes.observations;
       known.push_back({"median_observations", value_at(observations, 0.5), ""});
     }
+    add_invented_triangles(phase.mesh, known);
     facts.push_back(std::move(known));
   }
   table.rows = rows_of(facts);

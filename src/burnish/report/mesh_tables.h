@@ -12,8 +12,8 @@ namespace burnish {
 /// Counts, extent, area and how each phase's mesh hangs together.
 Table topology_table(const Record& record);
 
-/// What is known of the vertices: where they come from, their sigma and observations. No rows where
-/// no phase says anything.
+/// Where vertices and triangles come from; sigma and observations of the vertices. No rows where no
+/// phase says anything.
 Table trust_table(const Record& record);
 
 /// Angles of all triangles (degrees) and lengths of all their edges (m); an edge counts once for

@@ -190,17 +190,26 @@ struct Painter::Scene {
         color += sample.weights[k] * linear(attributes.colors[corners[k]]);
       }
     }
-    if (options.origin && !attributes.origin.empty()) {
-      double interpolated = 0, invented = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Origin origin = attributes.origin[corners[k]];
-        if (origin == Origin::interpolated) interpolated += sample.weights[k];
-        if (origin == Origin::invented) invented += sample.weights[k];
-      }
-      color = mix(color, linear(options.interpolated), 0.85 * interpolated);
-      color = mix(color, linear(options.invented), 0.85 * invented);
+    if (options.origin) {
+      color = mix(color, linear(options.interpolated), 0.85 * share(sample, Origin::interpolated));
+      color = mix(color, linear(options.invented), 0.85 * share(sample, Origin::invented));
     }
     return color;
+  }
+
+  /// How much of a sample has this origin: all of it where the triangle does, else what the corners
+  /// say.
+  double share(const Sample& sample, Origin origin) const {
+    const std::vector<Origin>& triangles = mesh.triangle_attributes.origin;
+    if (!triangles.empty() && triangles[sample.triangle] != Origin::seen)
+      return triangles[sample.triangle] == origin ? 1 : 0;
+    const std::vector<Origin>& vertices = mesh.attributes.origin;
+    if (vertices.empty()) return 0;
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (vertices[unit.triangles[sample.triangle][k]] == origin) sum += sample.weights[k];
+    }
+    return sum;
   }
 };
 

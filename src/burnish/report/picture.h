@@ -17,7 +17,7 @@ struct PictureOptions {
   bool smooth_normals = false;              ///< false: one normal a triangle, noise is seen
   bool edges = false;                       ///< draw the triangles' edges
   bool vertex_colors = false;               ///< where the mesh has them, instead of `surface`
-  bool origin = true;                       ///< tint what was interpolated or invented
+  bool origin = true;                       ///< tint vertices and triangles not seen
   Color surface{228, 223, 214, 255};
   Color back{178, 74, 118, 255};  ///< triangles seen from their inner side
   Color interpolated{150, 186, 205, 255};

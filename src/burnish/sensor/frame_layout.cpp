@@ -115,6 +115,17 @@ Result<FrameLayout> find_in_folder(const fs::path& given) {
   return layout;
 }
 
+std::optional<fs::path> find_in(const std::vector<fs::path>& folders,
+                                std::initializer_list<std::string_view> names) {
+  for (const fs::path& folder : folders) {
+    for (const std::string_view name : names) {
+      std::error_code ignored;
+      if (fs::is_regular_file(folder / name, ignored)) return folder / name;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool is_depth_image(const fs::path& path) {
@@ -163,13 +174,12 @@ Result<FrameLayout> find_frames(const std::vector<fs::path>& inputs) {
 
 std::optional<fs::path> find_beside(const FrameLayout& layout,
                                     std::initializer_list<std::string_view> names) {
-  for (const fs::path& folder : layout.folders) {
-    for (const std::string_view name : names) {
-      std::error_code ignored;
-      if (fs::is_regular_file(folder / name, ignored)) return folder / name;
-    }
-  }
-  return std::nullopt;
+  return find_in(layout.folders, names);
+}
+
+std::optional<fs::path> find_pose_list(const std::vector<fs::path>& folders) {
+  return find_in(folders,
+                 {"pose.txt", "poses.txt", "trajectory.log", "trajectory.txt", "groundtruth.txt"});
 }
 
 }  // namespace burnish

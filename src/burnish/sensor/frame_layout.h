@@ -26,6 +26,11 @@ Result<FrameLayout> find_frames(const std::vector<std::filesystem::path>& inputs
 std::optional<std::filesystem::path> find_beside(const FrameLayout& layout,
                                                  std::initializer_list<std::string_view> names);
 
+/// The first of pose.txt, poses.txt, trajectory.log, trajectory.txt and groundtruth.txt that exists
+/// in one of `folders`.
+std::optional<std::filesystem::path> find_pose_list(
+    const std::vector<std::filesystem::path>& folders);
+
 /// Whether the ending is one of a depth image: PNG, PGM or TIFF, in any case.
 bool is_depth_image(const std::filesystem::path& path);
 

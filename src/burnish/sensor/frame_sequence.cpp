@@ -110,9 +110,7 @@ Result<bool> find_poses(const FrameLayout& layout, const fs::path& given,
     const auto beside = read_poses_beside(files);
     if (!beside || *beside) return beside;
     if (!layout.whole_folder) return false;
-    path = find_beside(layout, {"pose.txt", "poses.txt", "trajectory.log", "trajectory.txt",
-                                "groundtruth.txt"})
-               .value_or("");
+    path = find_pose_list(layout.folders).value_or("");
     if (path.empty()) return false;
   }
   const auto list = read_pose_list(path);

@@ -5,6 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "burnish/base/parallel.h"
+#include "burnish/base/small_sort.h"
+
 namespace burnish {
 namespace {
 
@@ -15,6 +18,13 @@ constexpr double kPointsPerCell = 2;          ///< aimed at in an occupied cell 
 constexpr std::uint32_t kCrowdedCoarse = 8;   ///< a cell with more points becomes a node
 constexpr std::uint32_t kCrowded = 32;
 constexpr std::size_t kFew = 64;
+/// A ball is looked up as a hair larger: rounding must not lose a point that lies on it.
+constexpr double kHair = 1 + 1e-6;
+/// So many points in the order of the cells look for their neighbours together.
+constexpr std::ptrdiff_t kTogether = 8;
+constexpr double kSpread = 4;  ///< widest group, in radii
+/// The radius that sufficed for a group is tried with the next one, a little wider.
+constexpr double kWider = 1.1;
 
 bool nearer(const Neighbour& a, const Neighbour& b) {
   return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance
@@ -35,27 +45,11 @@ double outside(double x, double low, double high) {
   return std::max({low - x, x - high, 0.0});
 }
 
-/// Sorts few neighbours without branches that depend on them: each goes to the place that the
-/// number of nearer ones gives. Leaves the nearest `wanted`.
-void sort_few(std::vector<Neighbour>& found, std::size_t wanted) {
-  std::array<double, kFew> distance, index;
-  std::array<Neighbour, kFew> sorted;
-  const std::size_t count = found.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    distance[i] = found[i].squared_distance;
-    index[i] = found[i].index;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const double d = distance[i], n = index[i];
-    double place = 0;
-    for (std::size_t j = 0; j < count; ++j) {
-      const int nearer_one = distance[j] < d, as_near = distance[j] == d, sooner = index[j] < n;
-      place += (nearer_one | (as_near & sooner)) ? 1.0 : 0.0;
-    }
-    sorted[static_cast<std::size_t>(place)] = found[i];
-  }
-  found.resize(std::min(count, wanted));
-  std::copy_n(sorted.begin(), found.size(), found.begin());
+/// What to try where `radius` held only `found` of `count` points.
+double larger_radius(double radius, std::size_t found, std::size_t count) {
+  const double missing = static_cast<double>(count) / (static_cast<double>(found) + 0.5);
+  radius *= std::clamp(1.15 * std::sqrt(missing), 1.2, 2.0);
+  return std::max(radius, static_cast<double>(std::numeric_limits<float>::denorm_min()));
 }
 
 /// Leaves the nearest `wanted`, in no order.
@@ -67,9 +61,12 @@ void keep_nearest(std::vector<Neighbour>& found, std::size_t wanted) {
 }
 
 void sort_nearest(std::vector<Neighbour>& found, std::size_t wanted) {
-  if (found.size() <= kFew) return sort_few(found, wanted);
-  keep_nearest(found, wanted);
-  std::sort(found.begin(), found.end(), nearer);
+  if (found.size() > kFew) keep_nearest(found, wanted);
+  small_sort(
+      std::span(found),
+      [](const Neighbour& neighbour) { return static_cast<float>(neighbour.squared_distance); },
+      nearer);
+  found.resize(std::min(found.size(), wanted));
 }
 
 }  // namespace
@@ -81,6 +78,9 @@ struct NeighbourGrid::Search {
   std::size_t wanted;
   std::vector<Neighbour>& found;  ///< the first `count` are those in the ball
   std::size_t count = 0;
+
+  double low(std::size_t axis) const { return centre[axis] - radius * kHair; }
+  double high(std::size_t axis) const { return centre[axis] + radius * kHair; }
 
   Search(const Vec3d& query, double r, std::size_t nearest, std::vector<Neighbour>& result)
       : centre(query), radius(r), squared_radius(r * r), wanted(nearest), found(result) {}
@@ -103,6 +103,64 @@ struct NeighbourGrid::Search {
     squared_radius = found.back().squared_distance;
     radius = std::sqrt(squared_radius);
   }
+};
+
+/// All points in a box around a few, coordinate by coordinate.
+class NeighbourGrid::Gathered {
+ public:
+  std::size_t wanted;  ///< of coincident points no more than these are needed
+
+  explicit Gathered(std::size_t nearest) : wanted(nearest) {}
+
+  /// Empties it, for what is at most `margin` away from the box of the points [begin, end).
+  void reset(const Point* begin, const Point* end, double margin) {
+    low_ = high_ = Vec3d(begin->position);
+    for (const Point* p = begin; p != end; ++p) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low_[axis] = std::min<double>(low_[axis], p->position[axis]);
+        high_[axis] = std::max<double>(high_[axis], p->position[axis]);
+      }
+    }
+    margin_ = margin * kHair;
+    count_ = 0;
+  }
+  double low(std::size_t axis) const { return low_[axis] - margin_; }
+  double high(std::size_t axis) const { return high_[axis] + margin_; }
+
+  void add(const Point* begin, const Point* end) {
+    const std::size_t room = count_ + static_cast<std::size_t>(end - begin);
+    if (index_.size() < room) {
+      for (auto* column : {&x_, &y_, &z_, &squared_}) column->resize(2 * room);
+      index_.resize(2 * room);
+    }
+    for (const Point* p = begin; p != end; ++p, ++count_) {
+      x_[count_] = p->position.x, y_[count_] = p->position.y, z_[count_] = p->position.z;
+      index_[count_] = p->index;
+    }
+  }
+
+  /// Those at most `radius` from `centre`, in no order.
+  void select(const Vec3d& centre, double radius, std::vector<Neighbour>& found) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double x = x_[i] - centre.x, y = y_[i] - centre.y, z = z_[i] - centre.z;
+      squared_[i] = x * x + y * y + z * z;
+    }
+    found.resize(count_);
+    std::size_t kept = 0;
+    const double limit = radius * radius;
+    for (std::size_t i = 0; i < count_; ++i) {
+      found[kept] = {index_[i], squared_[i]};
+      kept += squared_[i] <= limit;
+    }
+    found.resize(kept);
+  }
+
+ private:
+  Vec3d low_, high_;
+  double margin_ = 0;
+  std::size_t count_ = 0;
+  std::vector<double> x_, y_, z_, squared_;
+  std::vector<std::uint32_t> index_;
 };
 
 NeighbourGrid::NeighbourGrid(std::span<const Vec3f> points) {
@@ -204,28 +262,27 @@ void NeighbourGrid::sort_into_cells(const Node& node, std::uint32_t begin, std::
   std::copy(sorted_.begin() + begin, sorted_.begin() + end, points_.begin() + begin);
 }
 
-void NeighbourGrid::scan(std::uint32_t begin, std::uint32_t end, Search& search) const {
-  search.add(points_.data() + begin, points_.data() + end);
+template <class Query>
+void NeighbourGrid::scan(std::uint32_t begin, std::uint32_t end, Query& query) const {
+  query.add(points_.data() + begin, points_.data() + end);
 }
 
-void NeighbourGrid::visit(std::uint32_t number, Search& search) const {
+template <class Query>
+void NeighbourGrid::visit(std::uint32_t number, Query& query) const {
   const Node& node = nodes_[number];
   const std::uint32_t* starts = starts_.data() + node.first_start;
   if (node.coincident) {
     scan(starts[0],
          std::min<std::uint32_t>(starts[1],
                                  starts[0] + static_cast<std::uint32_t>(std::min<std::size_t>(
-                                                 search.wanted, starts[1] - starts[0]))),
-         search);
+                                                 query.wanted, starts[1] - starts[0]))),
+         query);
     return;
   }
-  // A hair more than the radius: rounding must not lose a point that lies on the sphere.
-  const double reach = search.radius * (1 + 1e-6);
   std::array<std::int32_t, 3> from, to;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double x = search.centre[axis];
-    from[axis] = cell_of(x - reach, node.low[axis], node.inverse_cell, node.size[axis]);
-    to[axis] = cell_of(x + reach, node.low[axis], node.inverse_cell, node.size[axis]);
+    from[axis] = cell_of(query.low(axis), node.low[axis], node.inverse_cell, node.size[axis]);
+    to[axis] = cell_of(query.high(axis), node.low[axis], node.inverse_cell, node.size[axis]);
     if (to[axis] < 0 || from[axis] >= node.size[axis]) return;
     from[axis] = std::max(from[axis], 0);
     to[axis] = std::min(to[axis], node.size[axis] - 1);
@@ -238,16 +295,16 @@ void NeighbourGrid::visit(std::uint32_t number, Search& search) const {
           static_cast<std::size_t>(node.size[0]);
       if (node.first_child < 0) {
         scan(starts[row + static_cast<std::size_t>(from[0])],
-             starts[row + static_cast<std::size_t>(to[0]) + 1], search);
+             starts[row + static_cast<std::size_t>(to[0]) + 1], query);
         continue;
       }
       for (std::int32_t x = from[0]; x <= to[0]; ++x) {
         const std::size_t cell = row + static_cast<std::size_t>(x);
         const std::uint32_t child = children_[static_cast<std::size_t>(node.first_child) + cell];
         if (child == kLeaf) {
-          scan(starts[cell], starts[cell + 1], search);
+          scan(starts[cell], starts[cell + 1], query);
         } else {
-          visit(child, search);
+          visit(child, query);
         }
       }
     }
@@ -271,6 +328,12 @@ double NeighbourGrid::area_per_point_near(const Vec3d& query) const {
   }
 }
 
+/// On an evenly sampled surface a disc of this radius holds a few points more than are asked for.
+double NeighbourGrid::first_radius(const Vec3d& query, std::size_t count) const {
+  return std::sqrt(1.3 * (static_cast<double>(count) + 2) * area_per_point_near(query) /
+                   std::numbers::pi);
+}
+
 void NeighbourGrid::nearest(const Vec3f& query, std::size_t count,
                             std::vector<Neighbour>& found) const {
   found.clear();
@@ -283,19 +346,66 @@ void NeighbourGrid::nearest(const Vec3f& query, std::size_t count,
     to_box[axis] =
         outside(centre[axis], root.low[axis], root.low[axis] + root.size[axis] * root.cell);
   }
-  // On an evenly sampled surface a disc of this radius holds a few points more than are asked for.
-  double radius = norm(to_box) + std::sqrt(1.3 * (static_cast<double>(count) + 2) *
-                                           area_per_point_near(centre) / std::numbers::pi);
+  double radius = norm(to_box) + first_radius(centre, count);
   for (;;) {
     Search search(centre, radius, count, found);
     visit(0, search);
     found.resize(search.count);
     if (search.count >= count) break;
-    const double missing = static_cast<double>(count) / (static_cast<double>(search.count) + 0.5);
-    radius *= std::clamp(1.15 * std::sqrt(missing), 1.2, 2.0);
-    radius = std::max(radius, static_cast<double>(std::numeric_limits<float>::denorm_min()));
+    radius = larger_radius(radius, search.count, count);
   }
   sort_nearest(found, count);
+}
+
+/// The `count` nearest of each of the points [begin, end), which are close to each other, into
+/// their rows. `radius` is tried first; left is what would have been enough.
+void NeighbourGrid::nearest_of_group(const Point* begin, const Point* end, std::size_t count,
+                                     double& radius, Gathered& gathered,
+                                     std::vector<Neighbour>& found,
+                                     std::vector<std::uint32_t>& rows) const {
+  gathered.reset(begin, end, radius);
+  visit(0, gathered);
+  double enough = 0;
+  for (const Point* p = begin; p != end; ++p) {
+    for (;;) {
+      gathered.select(Vec3d(p->position), radius, found);
+      if (found.size() >= count) break;
+      radius = larger_radius(radius, found.size(), count);
+      gathered.reset(begin, end, radius);
+      visit(0, gathered);
+    }
+    sort_nearest(found, count);
+    enough = std::max(enough, found.back().squared_distance);
+    std::uint32_t* row = rows.data() + p->index * count;
+    for (const Neighbour& neighbour : found) *row++ = neighbour.index;
+  }
+  radius = std::sqrt(enough);
+}
+
+bool NeighbourGrid::nearest_of_all(std::size_t count, const Context& context,
+                                   NeighbourLists& lists) const {
+  count = std::min(count, points_.size());
+  std::vector<std::uint32_t> rows(points_.size() * count);
+  const bool complete = parallel_for(context, points_.size(), [&](IndexRange range) {
+    Gathered gathered(count);
+    std::vector<Neighbour> found;
+    double radius = std::numeric_limits<double>::infinity();
+    const Point* const end = points_.data() + range.end;
+    for (const Point* first = points_.data() + range.begin; first != end;) {
+      const Vec3d place(first->position);
+      const double guess = first_radius(place, count);
+      radius = std::clamp(kWider * radius, guess / 2, guess);
+      const Point* last = first + 1;
+      while (last != end && last - first < kTogether &&
+             norm(Vec3d(last->position) - place) <= kSpread * guess) {
+        ++last;
+      }
+      nearest_of_group(first, last, count, radius, gathered, found, rows);
+      first = last;
+    }
+  });
+  lists = {count, std::move(rows)};
+  return complete;
 }
 
 void NeighbourGrid::within(const Vec3f& query, double radius, std::vector<Neighbour>& found) const {

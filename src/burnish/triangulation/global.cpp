@@ -6,7 +6,8 @@
 #include <tuple>
 
 #include "burnish/core/gather.h"
-#include "burnish/points/estimate_normals.h"
+#include "burnish/points/surface_normals.h"
+#include "burnish/triangulation/front.h"
 #include "burnish/triangulation/local_fans.h"
 #include "burnish/triangulation/manifold_surface.h"
 #include "burnish/triangulation/point_order.h"
@@ -21,13 +22,8 @@ namespace {
 /// the run was cancelled.
 constexpr std::size_t kBetweenLooks = 8192;
 
-/// Sorts what not all fans agree on to the order in which it is tried.
-void sort_doubtful(std::vector<Candidate>& doubtful) {
-  std::sort(doubtful.begin(), doubtful.end(), [](const Candidate& a, const Candidate& b) {
-    if (a.votes != b.votes) return a.votes > b.votes;
-    return a.shape != b.shape ? a.shape > b.shape : a.triangle < b.triangle;
-  });
-}
+/// A hole that measured triangles surround may be wider than what a triangle bridges unasked.
+constexpr double kHoleReach = 1.5;
 
 /// Three fans that agree on triangles never contradict each other: in a vertex's fan every
 /// neighbour has one successor. The others are taken where they fit.
@@ -43,13 +39,32 @@ bool insert_candidates(const std::vector<Candidate>& candidates, const Context& 
     }
   }
   if (context.cancelled()) return false;
-  sort_doubtful(doubtful);
-  for (std::size_t i = 0; i < doubtful.size(); ++i) {
-    if (i % kBetweenLooks == 0 && context.cancelled()) return false;
-    const Triangle& t = doubtful[i].triangle;
-    if (!surface.overlaps(t)) surface.add_if_manifold(t);
+  std::sort(doubtful.begin(), doubtful.end(), sooner);
+  // What is not joined to the surface yet may be once others are.
+  for (bool grown = true; grown;) {
+    grown = false;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < doubtful.size(); ++i) {
+      if (i % kBetweenLooks == 0 && context.cancelled()) return false;
+      const Triangle& t = doubtful[i].triangle;
+      if (!surface.touches(t)) {
+        doubtful[kept++] = doubtful[i];
+      } else if (!surface.overlaps(t)) {
+        grown = surface.add_if_manifold(t) || grown;
+      }
+    }
+    doubtful.resize(kept);
   }
   return true;
+}
+
+/// Estimates the normals of `positions`, which are points of `cloud`.
+bool orient(const PointCloud& cloud, std::span<const Vec3f> positions, const NeighbourGrid& grid,
+            const NeighbourLists& neighbours, const Context& context, std::vector<Vec3f>& normals) {
+  std::optional<Vec3d> viewpoint;
+  if (cloud.viewpoint) viewpoint = *cloud.viewpoint - cloud.frame.origin;
+  std::size_t components = 0;
+  return normals_of_surface(positions, grid, neighbours, viewpoint, context, normals, components);
 }
 
 /// Leaves every vertex one fan, its largest. Returns false where cancelled.
@@ -69,12 +84,30 @@ bool separate_pinched_vertices(ManifoldSurface& surface, const Context& context)
   return true;
 }
 
+/// The surface as a mesh of points of `cloud`, which `order` names.
+Triangulation to_mesh(const ManifoldSurface& surface, const PointCloud& cloud,
+                      const std::vector<std::uint32_t>& order) {
+  std::vector<Triangle> triangles;
+  std::vector<Origin> origin;
+  surface.triangles(triangles, origin);
+  for (Triangle& t : triangles) t = {order[t[0]], order[t[1]], order[t[2]]};
+  Triangulation result = mesh_of_used_points(cloud, std::move(triangles));
+  result.report.duplicate_points = result.report.points - order.size();
+  result.report.invented_triangles =
+      static_cast<std::size_t>(std::count(origin.begin(), origin.end(), Origin::invented));
+  result.mesh.triangle_attributes.origin = std::move(origin);
+  return result;
+}
+
 }  // namespace
 
 const Schema<GlobalParams>& GlobalParams::schema() {
   using P = GlobalParams;
   static const auto schema =
       Schema<P>()
+          .choice("agreement", &P::agreement,
+                  {{"vote", Agreement::vote}, {"front", Agreement::front}},
+                  "triangles come in the order of the fans that agree on them, or grow from seeds")
           .integer("neighbours", &P::neighbours, between(3, 1000),
                    "neighbours that a fan begins with; doubled while they do not suffice")
           .integer("most_neighbours", &P::most_neighbours, between(3, 10000),
@@ -82,7 +115,7 @@ const Schema<GlobalParams>& GlobalParams::schema() {
           .real("sheet_angle", &P::sheet_angle, between(0, std::numbers::pi),
                 "neighbours whose normals are further apart are on another sheet", Quantity::angle)
           .real("max_gap", &P::max_gap, more_than(0),
-                "widest circumscribed circle, relative to the distance of the eighth neighbour")
+                "widest circumscribed circle, relative to the median edge of a corner's fan")
           .integer("hole_edges", &P::hole_edges, between(0, 100),
                    "boundary loops of at most so many edges are closed");
   return schema;
@@ -95,50 +128,53 @@ Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalPa
 
   context.stage("ordering points");
   const std::vector<std::uint32_t> order = order_along_curve(cloud.positions);
-  const PointCloud ordered = select(cloud, order);
-  std::vector<Vec3f> normals = ordered.attributes.normals;
+  const std::vector<Vec3f> positions = gather(cloud.positions, order);
+  context.stage("finding neighbours");
+  const NeighbourGrid grid(positions);
+  NeighbourLists neighbours;
+  if (!grid.nearest_of_all(static_cast<std::size_t>(params.neighbours) + 1, context.part(0, 0.2),
+                           neighbours)) {
+    return cancelled();
+  }
   context.stage("estimating normals");
-  if (normals.empty() && !ordered.positions.empty()) {
-    PointCloud estimated = ordered;
-    if (auto done = estimate_normals(estimated, {}, context.part(0, 0.3)); !done)
-      return done.error();
-    normals = std::move(estimated.attributes.normals);
+  std::vector<Vec3f> normals = gather(cloud.attributes.normals, order);
+  if (normals.empty() &&
+      !orient(cloud, positions, grid, neighbours, context.part(0.2, 0.4), normals)) {
+    return cancelled();
   }
 
   context.stage("building fans");
-  const NeighbourGrid grid(ordered.positions);
-  const FanRule rule{.first_neighbours = static_cast<std::size_t>(params.neighbours),
-                     .most_neighbours = static_cast<std::size_t>(
+  const FanRule rule{.most_neighbours = static_cast<std::size_t>(
                          std::max(params.most_neighbours, params.neighbours)),
-                     .cos_sheet_angle = std::cos(params.sheet_angle),
-                     .reach = params.max_gap};
+                     .cos_sheet_angle = std::cos(params.sheet_angle)};
   Fans fans;
+  const TriangleJudge judge(positions, normals, fans, params.max_gap);
   std::vector<Candidate> candidates;
-  if (!build_fans(ordered.positions, normals, grid, rule, context.part(0.3, 0.7), fans) ||
-      !count_votes(ordered.positions, normals, fans, params.max_gap, context.part(0.7, 0.8),
-                   candidates)) {
+  if (!build_fans(positions, normals, grid, neighbours, rule, context.part(0.4, 0.7), fans) ||
+      !count_votes(fans, judge, context.part(0.7, 0.8), candidates)) {
     return cancelled();
   }
 
   if (context.cancelled()) return cancelled();
   context.stage("inserting triangles");
-  ManifoldSurface surface(ordered.positions, normals);
-  if (!insert_candidates(candidates, context, surface)) return cancelled();
+  ManifoldSurface surface(positions, normals);
+  const bool inserted = params.agreement == Agreement::vote
+                            ? insert_candidates(candidates, context, surface)
+                            : grow_front(candidates, fans, judge, context, surface);
+  if (!inserted) return cancelled();
   context.progress(0.85);
   context.stage("closing holes");
-  const auto hole_edges = static_cast<std::size_t>(params.hole_edges);
-  std::size_t invented = 0;
-  if (!close_small_holes(surface, ordered.positions, normals, hole_edges, context, invented) ||
-      !separate_pinched_vertices(surface, context) ||
-      !close_small_holes(surface, ordered.positions, normals, hole_edges, context, invented)) {
+  const HoleRule hole_rule{static_cast<std::size_t>(params.hole_edges),
+                           kHoleReach * params.max_gap};
+  const auto close_holes = [&] {
+    return close_small_holes(surface, positions, normals, fans, hole_rule, context);
+  };
+  if (!close_holes() || !separate_pinched_vertices(surface, context) || !close_holes()) {
     return cancelled();
   }
 
   if (context.cancelled()) return cancelled();
-  std::vector<Triangle> triangles = surface.triangles();
-  for (Triangle& t : triangles) t = {order[t[0]], order[t[1]], order[t[2]]};
-  Triangulation result = mesh_of_used_points(cloud, std::move(triangles));
-  result.report.invented_triangles = invented;
+  Triangulation result = to_mesh(surface, cloud, order);
   context.progress(1);
   return result;
 }

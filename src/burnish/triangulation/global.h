@@ -7,11 +7,15 @@
 
 namespace burnish {
 
+/// How a surface is put together from the fans' triangles.
+enum class Agreement { vote, front };
+
 struct GlobalParams {
+  Agreement agreement = Agreement::vote;
   int neighbours = 16;
   int most_neighbours = 96;
   double sheet_angle = 1.5707963267948966;  // 90 degrees
-  double max_gap = 2.5;
+  double max_gap = 3;
   int hole_edges = 12;
 
   static const Schema<GlobalParams>& schema();
@@ -20,15 +24,16 @@ struct GlobalParams {
 /// One surface through all the points, from fans that agree, after the global triangulation of
 /// Linsen and Prautzsch 2001 (as told there; details are our own). Every point has a fan: its star
 /// in the Delaunay triangulation of its nearest neighbours in its tangent plane (local_fans.h).
-/// Triangles that the fans of all three corners hold are taken first, then those of two, then of
-/// one, well shaped ones first, each only where the surface stays an orientable manifold; then
-/// boundary loops of at most `hole_edges` edges are closed by the triangulation of best shape and
-/// counted as invented.
+/// `vote`: triangles that the fans of all three corners hold are taken first, then those of two,
+/// then of one, well shaped ones first, each only where it is joined to the surface and this stays
+/// an orientable manifold. `front`: the surface grows from a seed edge by edge (front.h). Then
+/// boundary loops of at most `hole_edges` edges are closed by the triangulation of best shape;
+/// these triangles have the origin `invented`.
 ///
-/// Normals are used where the cloud has them and are estimated otherwise; they tell two sheets
-/// apart that are nearer than the sampling. No triangle is larger than its surroundings' sampling:
-/// its circumscribed circle is at most `max_gap` times as wide as a corner's eighth neighbour is
-/// far.
+/// Normals are used where the cloud has them and are estimated otherwise (surface_normals.h); they
+/// tell two sheets apart that are nearer than the sampling. No triangle is larger than its
+/// surroundings' sampling: its circumscribed circle is at most `max_gap` times as wide as the
+/// largest of its corners' median edges; those that close a hole may be half as wide again.
 ///
 /// The result: no edge with three triangles, no vertex with two fans, one orientation, along the
 /// normals. Points without a place in it and all but one of coincident points are left out;

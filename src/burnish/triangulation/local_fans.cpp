@@ -10,7 +10,8 @@ namespace burnish {
 namespace {
 
 constexpr std::size_t kPointsAtOnce = 1024;
-constexpr std::size_t kSpacingNeighbour = 8;
+/// A fan needs to know no more around it than so many times the distance of the eighth neighbour.
+constexpr double kReach = 2.5;
 /// By how much the spacing may grow from a point to a neighbour.
 constexpr float kSpacingGrowth = 2;
 /// A neighbour seen under a steeper angle to the tangent plane (60 degrees) is above or below the
@@ -32,53 +33,82 @@ void tangents(const Vec3d& n, Vec3d& u, Vec3d& v) {
 class FanBuilder {
  public:
   FanBuilder(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
-             const NeighbourGrid& grid, const FanRule& rule)
-      : positions_(positions), normals_(normals), grid_(grid), rule_(rule) {}
+             const NeighbourGrid& grid, const NeighbourLists& neighbours, const FanRule& rule)
+      : positions_(positions),
+        normals_(normals),
+        grid_(grid),
+        neighbours_(neighbours),
+        rule_(rule) {}
 
   /// Appends the rim of `p`; gives its spacing.
   double append(std::uint32_t p, std::vector<std::uint32_t>& rims) {
+    std::span<const std::uint32_t> near = neighbours_.of(p);
     const std::size_t limit = std::min(rule_.most_neighbours + 1, positions_.size());
-    double spacing = 0;
-    for (std::size_t count = std::min(rule_.first_neighbours + 1, limit);;) {
-      grid_.nearest(positions_[p], count, neighbours_);
-      spacing = std::sqrt(neighbours_[std::min(kSpacingNeighbour, count - 1)].squared_distance);
-      project(p);
+    const double enough = kReach * distance(p, near[std::min<std::size_t>(8, near.size() - 1)]);
+    for (;;) {
+      project(p, near);
       star_.build(plane_, p);
-      const double known = neighbours_.back().squared_distance;
-      const double needed = std::pow(rule_.reach * spacing, 2);
-      const bool complete = star_.closed() && star_.squared_diameter() <= known;
-      if (complete || known >= needed || count == limit) break;
-      count = std::min(2 * count, limit);
+      const double known = distance(p, near.back());
+      const bool complete = star_.closed() && star_.squared_diameter() <= known * known;
+      if (complete || known >= enough || near.size() >= limit) break;
+      near = look_further(p, std::min(2 * near.size(), limit));
     }
     for (const std::uint32_t i : star_.rim()) rims.push_back(plane_[i].index);
     if (!star_.closed() && !star_.rim().empty()) rims.push_back(Fans::kGap);
-    return spacing;
+    return median_edge(p);
   }
 
  private:
+  double distance(std::uint32_t p, std::uint32_t q) const {
+    return norm(Vec3d(positions_[q]) - Vec3d(positions_[p]));
+  }
+
+  /// Half the edges to the rim are at least as long.
+  double median_edge(std::uint32_t p) {
+    edges_.clear();
+    for (const std::uint32_t i : star_.rim()) {
+      edges_.push_back(squared_norm(Vec3d(positions_[plane_[i].index]) - Vec3d(positions_[p])));
+    }
+    if (edges_.empty()) return 0;
+    const auto middle = edges_.begin() + static_cast<std::ptrdiff_t>(edges_.size() / 2);
+    std::nth_element(edges_.begin(), middle, edges_.end());
+    return std::sqrt(*middle);
+  }
+
+  std::span<const std::uint32_t> look_further(std::uint32_t p, std::size_t count) {
+    grid_.nearest(positions_[p], count, found_);
+    further_.resize(found_.size());
+    std::transform(found_.begin(), found_.end(), further_.begin(),
+                   [](const Neighbour& neighbour) { return neighbour.index; });
+    return further_;
+  }
+
   /// The neighbours on the sheet of `p`, in its tangent plane.
-  void project(std::uint32_t p) {
+  void project(std::uint32_t p, std::span<const std::uint32_t> near) {
     plane_.clear();
     const Vec3d centre(positions_[p]), normal(normals_[p]);
     if (squared_norm(normal) == 0) return;
     Vec3d u, v;
     tangents(normal, u, v);
-    for (const Neighbour& neighbour : neighbours_) {
-      const double alike = dot(normal, Vec3d(normals_[neighbour.index]));
-      if (neighbour.index == p || alike <= rule_.cos_sheet_angle) continue;
-      const Vec3d to = Vec3d(positions_[neighbour.index]) - centre;
+    for (const std::uint32_t q : near) {
+      const double alike = dot(normal, Vec3d(normals_[q]));
+      if (q == p || alike <= rule_.cos_sheet_angle) continue;
+      const Vec3d to = Vec3d(positions_[q]) - centre;
       const double height = dot(normal, to);
       const double steepest = alike > kAlike ? kAlikeSquaredSine : kSteepSquaredSine;
-      if (height * height > steepest * neighbour.squared_distance) continue;
-      plane_.push_back({dot(u, to), dot(v, to), neighbour.index});
+      if (height * height > steepest * squared_norm(to)) continue;
+      plane_.push_back({dot(u, to), dot(v, to), q});
     }
   }
 
   std::span<const Vec3f> positions_, normals_;
   const NeighbourGrid& grid_;
+  const NeighbourLists& neighbours_;
   const FanRule& rule_;
-  std::vector<Neighbour> neighbours_;
+  std::vector<Neighbour> found_;
+  std::vector<std::uint32_t> further_;
   std::vector<PlanePoint> plane_;
+  std::vector<double> edges_;
   DelaunayStar star_;
 };
 
@@ -98,8 +128,8 @@ void Fans::limit_spacing() {
 }
 
 bool build_fans(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
-                const NeighbourGrid& grid, const FanRule& rule, const Context& context,
-                Fans& fans) {
+                const NeighbourGrid& grid, const NeighbourLists& neighbours, const FanRule& rule,
+                const Context& context, Fans& fans) {
   const std::size_t count = positions.size();
   const std::size_t blocks = (count + kPointsAtOnce - 1) / kPointsAtOnce;
   std::vector<std::vector<std::uint32_t>> rims(blocks);
@@ -108,7 +138,7 @@ bool build_fans(std::span<const Vec3f> positions, std::span<const Vec3f> normals
   const bool complete = parallel_for(
       context, blocks,
       [&](IndexRange range) {
-        FanBuilder builder(positions, normals, grid, rule);
+        FanBuilder builder(positions, normals, grid, neighbours, rule);
         for (std::size_t block = range.begin; block < range.end; ++block) {
           rims[block].reserve(7 * kPointsAtOnce);
           const std::size_t end = std::min(count, (block + 1) * kPointsAtOnce);

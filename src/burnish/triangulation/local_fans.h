@@ -13,11 +13,8 @@ namespace burnish {
 
 /// How a point's fan is built.
 struct FanRule {
-  std::size_t first_neighbours =
-      16;  ///< looked at to begin with; doubled while they do not suffice
   std::size_t most_neighbours = 96;
   double cos_sheet_angle = 0;  ///< neighbours whose normals are further apart are on another sheet
-  double reach = 2.5;          ///< a fan needs to know no more than this many spacings around it
 };
 
 /// Fans of triangles around points, each on its own: the rim of a point is the sequence of
@@ -32,22 +29,32 @@ class Fans {
     return {rims_.data() + offsets_[p], rims_.data() + offsets_[p + 1]};
   }
 
-  /// Distance of a point to its eighth neighbour (the last one where there are fewer), but at most
-  /// twice the largest such distance on its rim, m.
+  /// Median length of the edges from a point to its rim, but at most twice the largest such length
+  /// of a point of the rim, m; 0 where the rim is empty.
   double spacing(std::size_t p) const { return spacing_[p]; }
 
-  /// Whether the fan of `p` has the triangle (p, q, r).
-  bool has(std::uint32_t p, std::uint32_t q, std::uint32_t r) const {
+  /// What follows the neighbour `q` on the rim of `p`, or comes before it; kGap where nothing does.
+  std::uint32_t after(std::uint32_t p, std::uint32_t q) const {
     const auto around = rim(p);
     for (std::size_t i = 0; i < around.size(); ++i) {
-      if (around[i] == q) return around[i + 1 < around.size() ? i + 1 : 0] == r;
+      if (around[i] == q) return around[i + 1 < around.size() ? i + 1 : 0];
     }
-    return false;
+    return kGap;
   }
+  std::uint32_t before(std::uint32_t p, std::uint32_t q) const {
+    const auto around = rim(p);
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      if (around[i] == q) return around[i > 0 ? i - 1 : around.size() - 1];
+    }
+    return kGap;
+  }
+
+  /// Whether the fan of `p` has the triangle (p, q, r).
+  bool has(std::uint32_t p, std::uint32_t q, std::uint32_t r) const { return after(p, q) == r; }
 
  private:
   friend bool build_fans(std::span<const Vec3f>, std::span<const Vec3f>, const NeighbourGrid&,
-                         const FanRule&, const Context&, Fans&);
+                         const NeighbourLists&, const FanRule&, const Context&, Fans&);
   void limit_spacing();
 
   std::vector<std::uint32_t> offsets_, rims_;
@@ -58,12 +65,14 @@ class Fans {
 /// Prautzsch 2001. A point's nearest neighbours whose normals agree with its own are projected
 /// along its normal; its fan is its star in their Delaunay triangulation. As long as a
 /// circumscribed circle of the fan, or a gap of 180 degrees or more, reaches beyond the neighbours
-/// looked at, more are taken, up to the limits of `rule`.
+/// looked at, twice as many are taken, up to the limits of `rule`; those of `neighbours` come
+/// first.
 ///
-/// `grid` holds `positions`, which are distinct; `normals` have unit length or are 0 (a point
-/// without a normal has no fan and is in none). Cocircular points are triangulated from the one
-/// with the smallest index, whichever fan asks. Returns false where cancelled. O(#P).
+/// `grid` and `neighbours` are of `positions`, which are distinct; `normals` have unit length or
+/// are 0 (a point without a normal has no fan and is in none). Cocircular points are triangulated
+/// from the one with the smallest index, whichever fan asks. Returns false where cancelled. O(#P).
 bool build_fans(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
-                const NeighbourGrid& grid, const FanRule& rule, const Context& context, Fans& fans);
+                const NeighbourGrid& grid, const NeighbourLists& neighbours, const FanRule& rule,
+                const Context& context, Fans& fans);
 
 }  // namespace burnish

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace burnish {
 
 ManifoldSurface::ManifoldSurface(std::span<const Vec3f> positions, std::span<const Vec3f> normals)
     : positions_(positions), normals_(normals), first_corner_(positions.size(), kNone) {
   triangles_.reserve(2 * positions.size());
+  origin_.reserve(2 * positions.size());
   next_corner_.reserve(6 * positions.size());
 }
 
@@ -34,20 +36,22 @@ std::uint32_t ManifoldSurface::successor(std::uint32_t v, std::uint32_t w) const
   return kNone;
 }
 
-void ManifoldSurface::add(const Triangle& t) {
+void ManifoldSurface::add(const Triangle& t, Origin origin) {
   const auto number = static_cast<std::uint32_t>(triangles_.size());
+  suspect(t);
   triangles_.push_back(t);
+  origin_.push_back(origin);
   for (std::uint32_t i = 0; i < 3; ++i) {
     next_corner_.push_back(first_corner_[t[i]]);
     first_corner_[t[i]] = 3 * number + i;
   }
 }
 
-bool ManifoldSurface::add_if_manifold(const Triangle& t) {
+bool ManifoldSurface::add_if_manifold(const Triangle& t, Origin origin) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (!fits(t[i], t[(i + 1) % 3], t[(i + 2) % 3])) return false;
   }
-  add(t);
+  add(t, origin);
   return true;
 }
 
@@ -90,8 +94,21 @@ bool ManifoldSurface::overlaps_at(std::uint32_t v, std::uint32_t begin, std::uin
   return overlap;
 }
 
+bool ManifoldSurface::is_larger(std::uint32_t v, std::size_t count) const {
+  std::vector<std::uint32_t> reached{v};
+  for (std::size_t i = 0; i < reached.size() && reached.size() <= count; ++i) {
+    for_each_link_edge(reached[i], [&](const LinkEdge& link) {
+      for (const std::uint32_t w : {link.begin, link.end}) {
+        if (std::find(reached.begin(), reached.end(), w) == reached.end()) reached.push_back(w);
+      }
+    });
+  }
+  return reached.size() > count;
+}
+
 void ManifoldSurface::remove(std::uint32_t triangle) {
   Triangle& t = triangles_[triangle];
+  suspect(t);
   for (std::uint32_t i = 0; i < 3; ++i) {
     const std::uint32_t corner = 3 * triangle + i;
     std::uint32_t* link = &first_corner_[t[i]];
@@ -129,10 +146,34 @@ void ManifoldSurface::ends(std::uint32_t v, std::vector<std::uint32_t>& begins,
   ends.erase(kept_end, ends.end());
 }
 
-std::vector<ManifoldSurface::Corner> ManifoldSurface::corners() const {
+void ManifoldSurface::suspect(const Triangle& t) {
+  if (watching_) suspects_.insert(suspects_.end(), t.begin(), t.end());
+}
+
+/// Whether the link of v has an edge that ends where each begins.
+bool ManifoldSurface::is_inner(std::uint32_t v) const {
+  std::uint32_t sum = 0;  // of what begins less what ends: 0 for an inner vertex
+  for_each_link_edge(v, [&](const LinkEdge& link) { sum += link.begin - link.end; });
+  if (sum != 0) return false;
+  bool inner = true;
+  for_each_link_edge(
+      v, [&](const LinkEdge& link) { inner = inner && successor(v, link.end) != kNone; });
+  return inner;
+}
+
+std::vector<ManifoldSurface::Corner> ManifoldSurface::corners() {
+  if (!watching_) {
+    suspects_.resize(first_corner_.size());
+    std::iota(suspects_.begin(), suspects_.end(), 0u);
+    watching_ = true;
+  } else {
+    std::sort(suspects_.begin(), suspects_.end());
+    suspects_.erase(std::unique(suspects_.begin(), suspects_.end()), suspects_.end());
+  }
+  std::erase_if(suspects_, [&](std::uint32_t v) { return is_inner(v); });
   std::vector<Corner> found;
   std::vector<std::uint32_t> from, to;
-  for (std::uint32_t v = 0; v < first_corner_.size(); ++v) {
+  for (const std::uint32_t v : suspects_) {
     ends(v, from, to);
     for (const std::uint32_t end : to) {
       // The first beginning counter-clockwise of the end: half turns first, then by cross product.
@@ -171,13 +212,14 @@ void ManifoldSurface::paths(std::uint32_t v, std::vector<std::vector<std::uint32
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
 }
 
-std::vector<Triangle> ManifoldSurface::triangles() const {
-  std::vector<Triangle> kept;
-  kept.reserve(triangles_.size());
-  for (const Triangle& t : triangles_) {
-    if (t[0] != kNone) kept.push_back(t);
+void ManifoldSurface::triangles(std::vector<Triangle>& kept, std::vector<Origin>& origin) const {
+  kept.clear();
+  origin.clear();
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (triangles_[t][0] == kNone) continue;
+    kept.push_back(triangles_[t]);
+    origin.push_back(origin_[t]);
   }
-  return kept;
 }
 
 }  // namespace burnish

@@ -23,30 +23,42 @@ class ManifoldSurface {
   ManifoldSurface(std::span<const Vec3f> positions, std::span<const Vec3f> normals);
 
   /// Adds `t` without asking; the caller knows that it fits.
-  void add(const Triangle& t);
+  void add(const Triangle& t, Origin origin = Origin::seen);
 
   /// Adds `t` where its three directed edges are free and every link stays a set of paths or one
   /// cycle. O(valence).
-  bool add_if_manifold(const Triangle& t);
+  bool add_if_manifold(const Triangle& t, Origin origin = Origin::seen);
 
   /// Whether `t` folds back at a corner or lies over a triangle that is there, seen along the
   /// corner's normal. O(valence).
   bool overlaps(const Triangle& t) const;
+
+  /// Whether an edge of `t` is one of a triangle on its other side. O(valence).
+  bool touches(const Triangle& t) const {
+    return has_edge(t[1], t[0]) || has_edge(t[2], t[1]) || has_edge(t[0], t[2]);
+  }
+
+  /// Whether `v` is a corner of a triangle.
+  bool uses(std::uint32_t v) const { return first_corner_[v] != kNone; }
+
+  /// Whether more than `count` vertices hang together with `v`, itself among them. O(count).
+  bool is_larger(std::uint32_t v, std::size_t count) const;
 
   void remove(std::uint32_t triangle);
 
   /// Whether some triangle has the edge from a to b in this direction.
   bool has_edge(std::uint32_t a, std::uint32_t b) const { return successor(a, b) != kNone; }
 
-  /// The gaps around all vertices, vertex by vertex; none for inner and unused vertices.
-  std::vector<Corner> corners() const;
+  /// The gaps around all vertices, vertex by vertex; none for inner and unused vertices. O(#V) the
+  /// first time, then of what had gaps or was changed since.
+  std::vector<Corner> corners();
 
   /// The triangles of each path of the link of `v`, from its beginning; the longest path first, of
   /// equally long ones that which begins with the smallest index. For a vertex that has corners.
   void paths(std::uint32_t v, std::vector<std::vector<std::uint32_t>>& found) const;
 
-  /// The triangles that were not removed, in the order of insertion.
-  std::vector<Triangle> triangles() const;
+  /// The triangles that were not removed, in the order of insertion, and where each comes from.
+  void triangles(std::vector<Triangle>& kept, std::vector<Origin>& origin) const;
   std::size_t vertex_count() const { return first_corner_.size(); }
 
  private:
@@ -56,6 +68,8 @@ class ManifoldSurface {
   struct LinkEdge {
     std::uint32_t corner, begin, end;
   };
+  void suspect(const Triangle& t);
+  bool is_inner(std::uint32_t v) const;
   template <class Visit>
   void for_each_link_edge(std::uint32_t v, Visit visit) const;
   std::uint32_t successor(std::uint32_t v, std::uint32_t w) const;
@@ -68,7 +82,10 @@ class ManifoldSurface {
 
   std::span<const Vec3f> positions_, normals_;
   std::vector<Triangle> triangles_;
+  std::vector<Origin> origin_;
   std::vector<std::uint32_t> first_corner_, next_corner_;
+  std::vector<std::uint32_t> suspects_;  ///< all others have no gap; from the first corners() on
+  bool watching_ = false;
 };
 
 }  // namespace burnish

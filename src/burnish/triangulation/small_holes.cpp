@@ -1,6 +1,7 @@
 #include "burnish/triangulation/small_holes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -13,10 +14,12 @@ using Loop = std::vector<std::uint32_t>;
 
 /// How many times worse a triangle is for each corner whose normal it turns away from.
 constexpr double kFoldPenalty = 8;
+/// An island has at most so many vertices for one of its rim.
+constexpr std::size_t kIsland = 8;
 
 /// The boundary loops of three to `max_edges` different vertices, each from its smallest corner,
 /// with the gap on the left.
-std::vector<Loop> small_loops(const ManifoldSurface& surface, std::size_t max_edges) {
+std::vector<Loop> small_loops(ManifoldSurface& surface, std::size_t max_edges) {
   const std::vector<Corner> corners = surface.corners();
   std::vector<std::uint32_t> first(surface.vertex_count() + 1, 0);
   for (const Corner& corner : corners) ++first[corner.vertex + 1];
@@ -41,12 +44,34 @@ std::vector<Loop> small_loops(const ManifoldSurface& surface, std::size_t max_ed
   return loops;
 }
 
+/// The squared diameter of the smallest circle around a triangle, from its squared edges and the
+/// square of twice its area: an edge of an obtuse one, the circumscribed circle else.
+double squared_width(const std::array<double, 3>& squared, double squared_area) {
+  const double longest = std::max({squared[0], squared[1], squared[2]});
+  const double others = squared[0] + squared[1] + squared[2] - longest;
+  return others <= longest ? longest : squared[0] * squared[1] * squared[2] / squared_area;
+}
+
 /// The best triangulation of one loop.
 class LoopTriangulation {
  public:
   LoopTriangulation(const ManifoldSurface& surface, std::span<const Vec3f> positions,
-                    std::span<const Vec3f> normals)
-      : surface_(surface), positions_(positions), normals_(normals) {}
+                    std::span<const Vec3f> normals, const Fans& fans, double reach)
+      : surface_(surface), positions_(positions), normals_(normals), fans_(fans), reach_(reach) {}
+
+  /// Whether `loop` is not the rim of an island: whether what fills it looks along the normals, or
+  /// belongs to much more than it.
+  bool is_hole(const Loop& loop) const {
+    if (surface_.is_larger(loop[0], kIsland * loop.size())) return true;
+    const Vec3d first(positions_[loop[0]]);
+    Vec3d area, normal;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t next = loop[i + 1 < loop.size() ? i + 1 : 0];
+      area += cross(Vec3d(positions_[loop[i]]) - first, Vec3d(positions_[next]) - first);
+      normal += Vec3d(normals_[loop[i]]);
+    }
+    return dot(area, normal) > 0;
+  }
 
   /// Appends triangles that fill `loop`; none where there is no way.
   void append(const Loop& loop, std::vector<Triangle>& triangles) {
@@ -76,14 +101,17 @@ class LoopTriangulation {
   double cost(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const Vec3d p(positions_[a]), q(positions_[b]), r(positions_[c]);
     const Vec3d area = cross(q - p, r - p);
-    double facing = 0, fold = 1;
+    double fold = 1;
     for (const std::uint32_t v : {a, b, c}) {
-      const double along = dot(area, Vec3d(normals_[v]));
-      facing += along;
-      if (!(along > 0)) fold *= kFoldPenalty;
+      if (!(dot(area, Vec3d(normals_[v])) > 0)) fold *= kFoldPenalty;
     }
-    if (!(facing > 0)) return std::numeric_limits<double>::infinity();
-    return fold * (squared_norm(q - p) + squared_norm(r - q) + squared_norm(p - r)) / norm(area);
+    const std::array<double, 3> squared{squared_norm(q - p), squared_norm(r - q),
+                                        squared_norm(p - r)};
+    const double most = reach_ * std::max({fans_.spacing(a), fans_.spacing(b), fans_.spacing(c)});
+    if (squared_width(squared, squared_norm(area)) > most * most) {
+      return std::numeric_limits<double>::infinity();
+    }
+    return fold * (squared[0] + squared[1] + squared[2]) / norm(area);
   }
 
   void collect(const Loop& loop, std::size_t i, std::size_t k,
@@ -97,6 +125,8 @@ class LoopTriangulation {
 
   const ManifoldSurface& surface_;
   std::span<const Vec3f> positions_, normals_;
+  const Fans& fans_;
+  double reach_;
   std::vector<double> cost_;
   std::vector<std::size_t> apex_;
 };
@@ -104,16 +134,17 @@ class LoopTriangulation {
 }  // namespace
 
 bool close_small_holes(ManifoldSurface& surface, std::span<const Vec3f> positions,
-                       std::span<const Vec3f> normals, std::size_t max_edges,
-                       const Context& context, std::size_t& added) {
+                       std::span<const Vec3f> normals, const Fans& fans, const HoleRule& rule,
+                       const Context& context) {
   if (context.cancelled()) return false;
-  LoopTriangulation triangulation(surface, positions, normals);
+  LoopTriangulation triangulation(surface, positions, normals, fans, rule.reach);
   std::vector<Triangle> triangles;
-  for (const Loop& loop : small_loops(surface, max_edges)) {
+  for (const Loop& loop : small_loops(surface, rule.max_edges)) {
     if (context.cancelled()) return false;
+    if (!triangulation.is_hole(loop)) continue;
     triangles.clear();
     triangulation.append(loop, triangles);
-    for (const Triangle& t : triangles) added += surface.add_if_manifold(t);
+    for (const Triangle& t : triangles) surface.add_if_manifold(t, Origin::invented);
   }
   return true;
 }

@@ -11,6 +11,7 @@ Triangulation mesh_of(const PointCloud& cloud, const UsedPoints& used,
   Triangulation result;
   result.report.points = static_cast<std::size_t>(
       std::count_if(cloud.positions.begin(), cloud.positions.end(), is_finite<float>));
+  result.report.missing_points = cloud.positions.size() - result.report.points;
   result.report.unused_points = result.report.points - used.points.size();
   result.report.triangles = triangles.size();
   const Selection selected(used.points);

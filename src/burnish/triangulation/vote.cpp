@@ -11,50 +11,50 @@ namespace {
 
 constexpr std::size_t kPointsAtOnce = 1024;
 
-/// Judges the triangles that fans propose.
-struct Judge {
-  std::span<const Vec3f> positions, normals;
-  const Fans& fans;
-  double reach;
-
-  /// Whether `t` is small enough for its surroundings and faces along the normals of its corners.
-  bool acceptable(const Triangle& t, double& shape) const {
-    const Vec3d a(positions[t[0]]), b(positions[t[1]]), c(positions[t[2]]);
-    const Vec3d area = cross(b - a, c - a);
-    for (const std::uint32_t v : t) {
-      if (!(dot(area, Vec3d(normals[v])) > 0)) return false;
-    }
-    const double bc = squared_norm(c - b), ca = squared_norm(a - c), ab = squared_norm(b - a);
-    const double doubled = squared_norm(area);  // (2 area)^2
-    shape = 2 * std::numbers::sqrt3 * std::sqrt(doubled) / (ab + bc + ca);
-    const double spacing = std::max({fans.spacing(t[0]), fans.spacing(t[1]), fans.spacing(t[2])});
-    // The diameter of the circumscribed circle is |ab| |bc| |ca| / (2 area).
-    return ab * bc * ca <= reach * reach * spacing * spacing * doubled;
+/// Appends the triangles of the fan of `p` that no fan with a smaller index has.
+void append(std::uint32_t p, const Fans& fans, const TriangleJudge& judge,
+            std::vector<Candidate>& candidates) {
+  const auto rim = fans.rim(p);
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const std::uint32_t q = rim[i], r = rim[i + 1 < rim.size() ? i + 1 : 0];
+    if (q == Fans::kGap || r == Fans::kGap) continue;
+    const bool by_q = fans.has(q, r, p), by_r = fans.has(r, p, q);
+    if ((by_q && q < p) || (by_r && r < p)) continue;
+    Candidate candidate;
+    if (judge.accepts({p, q, r}, 1 + by_q + by_r, candidate)) candidates.push_back(candidate);
   }
-
-  /// Appends the triangles of the fan of `p` that no fan with a smaller index has.
-  void append(std::uint32_t p, std::vector<Candidate>& candidates) const {
-    const auto rim = fans.rim(p);
-    for (std::size_t i = 0; i < rim.size(); ++i) {
-      const std::uint32_t q = rim[i], r = rim[i + 1 < rim.size() ? i + 1 : 0];
-      if (q == Fans::kGap || r == Fans::kGap) continue;
-      const bool by_q = fans.has(q, r, p), by_r = fans.has(r, p, q);
-      if ((by_q && q < p) || (by_r && r < p)) continue;
-      Triangle t{p, q, r};
-      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-      double shape;
-      if (!acceptable(t, shape)) continue;
-      candidates.push_back(
-          {t, static_cast<std::uint8_t>(1 + by_q + by_r), static_cast<float>(shape)});
-    }
-  }
-};
+}
 
 }  // namespace
 
-bool count_votes(std::span<const Vec3f> positions, std::span<const Vec3f> normals, const Fans& fans,
-                 double reach, const Context& context, std::vector<Candidate>& candidates) {
-  const Judge judge{positions, normals, fans, reach};
+bool TriangleJudge::accepts(const Triangle& t, int votes, Candidate& candidate) const {
+  const Vec3d a(positions_[t[0]]), b(positions_[t[1]]), c(positions_[t[2]]);
+  const Vec3d area = cross(b - a, c - a);
+  for (const std::uint32_t v : t) {
+    if (!(dot(area, Vec3d(normals_[v])) > 0)) return false;
+  }
+  const double bc = squared_norm(c - b), ca = squared_norm(a - c), ab = squared_norm(b - a);
+  const double doubled = squared_norm(area);  // (2 area)^2
+  const double spacing = std::max({fans_.spacing(t[0]), fans_.spacing(t[1]), fans_.spacing(t[2])});
+  // The diameter of the circumscribed circle is |ab| |bc| |ca| / (2 area).
+  if (!(ab * bc * ca <= squared_reach_ * spacing * spacing * doubled)) return false;
+  candidate.triangle = t;
+  std::rotate(candidate.triangle.begin(),
+              std::min_element(candidate.triangle.begin(), candidate.triangle.end()),
+              candidate.triangle.end());
+  candidate.votes = static_cast<std::uint8_t>(votes);
+  candidate.shape =
+      static_cast<float>(2 * std::numbers::sqrt3 * std::sqrt(doubled) / (ab + bc + ca));
+  return true;
+}
+
+bool TriangleJudge::accepts(const Triangle& t, Candidate& candidate) const {
+  const auto [a, b, c] = t;
+  return accepts(t, fans_.has(a, b, c) + fans_.has(b, c, a) + fans_.has(c, a, b), candidate);
+}
+
+bool count_votes(const Fans& fans, const TriangleJudge& judge, const Context& context,
+                 std::vector<Candidate>& candidates) {
   const std::size_t blocks = (fans.size() + kPointsAtOnce - 1) / kPointsAtOnce;
   std::vector<std::vector<Candidate>> of_block(blocks);
   const bool complete = parallel_for(
@@ -64,7 +64,7 @@ bool count_votes(std::span<const Vec3f> positions, std::span<const Vec3f> normal
           of_block[block].reserve(2 * kPointsAtOnce + 512);
           const std::size_t end = std::min(fans.size(), (block + 1) * kPointsAtOnce);
           for (std::size_t p = block * kPointsAtOnce; p < end; ++p) {
-            judge.append(static_cast<std::uint32_t>(p), of_block[block]);
+            append(static_cast<std::uint32_t>(p), fans, judge, of_block[block]);
           }
         }
       },

@@ -18,10 +18,34 @@ struct Candidate {
   float shape;         ///< 4 sqrt(3) area / sum of squared edges: 1 equilateral, 0 degenerate
 };
 
-/// Every triangle of the fans once, in the order of the fans, save those that span a gap (whose
-/// circumscribed circle is wider than `reach` times the largest spacing of their corners) and those
-/// that face away from the normal of a corner. Returns false where cancelled. O(#fan triangles).
-bool count_votes(std::span<const Vec3f> positions, std::span<const Vec3f> normals, const Fans& fans,
-                 double reach, const Context& context, std::vector<Candidate>& candidates);
+/// The order in which candidates are tried: more votes, better shape, smaller indices first.
+inline bool sooner(const Candidate& a, const Candidate& b) {
+  if (a.votes != b.votes) return a.votes > b.votes;
+  return a.shape != b.shape ? a.shape > b.shape : a.triangle < b.triangle;
+}
+
+/// Says which triangles of the fans can be part of a surface.
+class TriangleJudge {
+ public:
+  /// `reach`: widest circumscribed circle, in the largest spacing of the corners.
+  TriangleJudge(std::span<const Vec3f> positions, std::span<const Vec3f> normals, const Fans& fans,
+                double reach)
+      : positions_(positions), normals_(normals), fans_(fans), squared_reach_(reach * reach) {}
+
+  /// Whether `t` spans no gap and faces along the normals of its corners; it is then `candidate`.
+  bool accepts(const Triangle& t, Candidate& candidate) const;
+  /// The same where the votes are counted already.
+  bool accepts(const Triangle& t, int votes, Candidate& candidate) const;
+
+ private:
+  std::span<const Vec3f> positions_, normals_;
+  const Fans& fans_;
+  double squared_reach_;
+};
+
+/// Every triangle of the fans that `judge` accepts, once, in the order of the fans. Returns false
+/// where cancelled. O(#fan triangles).
+[[nodiscard]] bool count_votes(const Fans& fans, const TriangleJudge& judge, const Context& context,
+                               std::vector<Candidate>& candidates);
 
 }  // namespace burnish
