@@ -155,6 +155,7 @@ Result<Triangulation> triangulate_organized(const PointCloud& cloud, const Organ
   std::vector<Triangle> triangles;
   if (!mesh.list(used.number, context.part(0.6, 0.9), triangles)) return cancelled();
   Triangulation result = mesh_of(cloud, used, std::move(triangles));
+  if (context.cancelled()) return cancelled();
   context.progress(1);
   return result;
 }

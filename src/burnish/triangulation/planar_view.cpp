@@ -34,17 +34,6 @@ Vec3d towards_viewer(const Vec3d& direction, const Vec3d& mean, const PointCloud
 
 }  // namespace
 
-PlanarView::PlanarView(const Vec3d& towards, const Vec3d& eye, bool central)
-    : towards_(towards), eye_(eye), central_(central) {
-  // The axis that is most across; for a line of sight along an axis nothing is rounded.
-  std::size_t across = 0;
-  for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (std::abs(towards[axis]) < std::abs(towards[across])) across = axis;
-  }
-  right_ = normalized(axis_vector(across) - towards * towards[across]);
-  up_ = cross(towards, right_);
-}
-
 Result<PlanarView> PlanarView::of(const PointCloud& cloud, Projection projection) {
   const PointMoments spread = moments(cloud.positions);
   if (projection == Projection::view) {
@@ -103,14 +92,14 @@ Result<void> PlanarView::measure(const PointCloud& cloud) {
 Vec2d PlanarView::operator()(const Vec3f& p) const {
   const Vec3d from_eye = Vec3d(p) - eye_;
   const double scale = central_ ? 1 / depth(from_eye) : 1;
-  const double x = dot(from_eye, right_) * scale, y = dot(from_eye, up_) * scale;
+  const double x = dot(from_eye, frame_.u) * scale, y = dot(from_eye, frame_.v) * scale;
   if (step_ == 0) return {x, y};
   return {std::nearbyint(x / step_) * step_, std::nearbyint(y / step_) * step_};
 }
 
 double PlanarView::nearness(const Vec3f& p) const {
   const Vec3d from_eye = Vec3d(p) - eye_;
-  return central_ ? -squared_norm(from_eye) : dot(from_eye, towards_);
+  return central_ ? -squared_norm(from_eye) : dot(from_eye, frame_.normal);
 }
 
 }  // namespace burnish

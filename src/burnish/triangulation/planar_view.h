@@ -3,6 +3,7 @@
 #include "burnish/core/point_cloud.h"
 #include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/predicates.h"
+#include "burnish/triangulation/tangent_frame.h"
 
 namespace burnish {
 
@@ -14,11 +15,11 @@ class PlanarView {
   /// order. O(#P). Errors: bad_geometry.
   static Result<PlanarView> of(const PointCloud& cloud, Projection projection);
 
-  /// x to the right and y upwards for the viewer; exact along an axis.
+  /// In axes that are counter-clockwise for the viewer; exact along an axis.
   Vec2d operator()(const Vec3f& p) const;
 
   /// From `p` to the viewer; of whatever length.
-  Vec3d to_viewer(const Vec3d& p) const { return central_ ? eye_ - p : towards_; }
+  Vec3d to_viewer(const Vec3d& p) const { return central_ ? eye_ - p : frame_.normal; }
 
   /// Grows along the line of sight towards the viewer.
   double nearness(const Vec3f& p) const;
@@ -27,12 +28,13 @@ class PlanarView {
   double step() const { return step_; }
 
  private:
-  PlanarView(const Vec3d& towards, const Vec3d& eye, bool central);
-  double depth(const Vec3d& from_eye) const { return -dot(from_eye, towards_); }
+  PlanarView(const Vec3d& towards, const Vec3d& eye, bool central)
+      : frame_(towards), eye_(eye), central_(central) {}
+  double depth(const Vec3d& from_eye) const { return -dot(from_eye, frame_.normal); }
   Result<void> measure(const PointCloud& cloud);
 
-  Vec3d right_, up_, towards_;  ///< of length 1; the viewer is where towards_ points
-  Vec3d eye_;                   ///< in the cloud's frame; the origin for parallel lines
+  TangentFrame frame_;  ///< whose normal points to the viewer; exact along an axis
+  Vec3d eye_;           ///< in the cloud's frame; the origin for parallel lines
   bool central_;
   double step_ = 0;
 };
