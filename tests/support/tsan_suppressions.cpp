@@ -14,5 +14,6 @@ extern "C" const char* __tsan_default_suppressions() {
          "race_top:bits/atomic_base.h\n"             // atomics within oneTBB's tasks
          "race_top:c++/12/atomic\n"
          "called_from_lib:libtbb.so\n"
-         "race:libembree3.so\n";  // its own threads build scenes; it calls nothing of ours back
+         "race:libembree3.so\n";  // its own threads build scenes; all that it calls back is whether
+                                  // to go on
 }
