@@ -13,5 +13,7 @@ extern "C" const char* __tsan_default_suppressions() {
                                                      // them
          "race_top:bits/atomic_base.h\n"             // atomics within oneTBB's tasks
          "race_top:c++/12/atomic\n"
-         "called_from_lib:libtbb.so\n";
+         "called_from_lib:libtbb.so\n"
+         "race:libembree3.so\n";  // its own threads build scenes; all that it calls back is whether
+                                  // to go on
 }
