@@ -49,6 +49,40 @@ TEST(EstimateNormals, OfASphereWithoutViewpointLookOutwards) {
   }
 }
 
+TEST(EstimateNormals, OfCurvedLinesThatAreFarApartArePerpendicularToLinesAndRows) {
+  // Circles around a cylinder: the sixteen nearest points are an arc of one circle, whose own plane
+  // is perpendicular to the surface.
+  PointCloud cloud;
+  constexpr int kAround = 600;
+  for (int row = 0; row < 20; ++row) {
+    for (int i = 0; i < kAround; ++i) {
+      const double turn = 2 * std::numbers::pi * (i + .3 * (row % 3)) / kAround;
+      cloud.positions.push_back(Vec3f(Vec3d{std::cos(turn), std::sin(turn), .1 * row}));
+    }
+  }
+  ASSERT_TRUE(estimate_normals(cloud));
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
+    const Vec3f& p = cloud.positions[i];
+    // Eight points of the circle reach 0.04 rad; those beside it are 0.006 rad off at most.
+    EXPECT_LT(angle(cloud.attributes.normals[i], {p.x, p.y, 0}), 0.05) << p.x << " " << p.z;
+  }
+}
+
+TEST(EstimateNormals, LookOutwardsThoughTheTopBeUnclear) {
+  // A sphere with a vertical blade on its top, whose points look sideways.
+  std::vector<Vec3d> points = sphere_points(4000);
+  for (int i = -10; i <= 10; ++i) {
+    for (int j = 0; j < 10; ++j) points.push_back({.03 * i, 0, 1 + .03 * j});
+  }
+  PointCloud cloud = cloud_of(points);
+  ASSERT_TRUE(estimate_normals(cloud));
+  for (std::size_t i = 0; i < 4000; ++i) {
+    if (points[i].z < .5) {
+      EXPECT_LT(angle(cloud.attributes.normals[i], points[i]), 0.06);
+    }
+  }
+}
+
 TEST(EstimateNormals, OfATorusWithoutViewpointLookOutwardsAlsoInTheHole) {
   PointCloud cloud;
   std::vector<Vec3d> outwards;

@@ -96,6 +96,17 @@ TEST(TriangulateGlobal, ClosesASphereThroughAllPoints) {
   }
 }
 
+TEST(TriangulateGlobal, ClosesARegularTorusOnWhichFansDisagree) {
+  for (const Agreement agreement : kBoth) {
+    const auto result = triangulate_global(torus(300, 120, 0, 1), {.agreement = agreement});
+    ASSERT_TRUE(result);
+    expect_oriented_manifold(result->mesh);
+    EXPECT_TRUE(topology(result->mesh).closed());
+    EXPECT_EQ(topology(result->mesh).euler_number, 0);
+    EXPECT_EQ(result->report.unused_points, 0u);
+  }
+}
+
 TEST(TriangulateGlobal, ClosesATorus) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto result = triangulate_global(torus(90, 36, .005, seed));

@@ -30,12 +30,13 @@ struct NormalReport {
 /// Gives every point a normal of unit length, 0 where none can be known.
 /// Organized: least-squares plane of inverse depth in a window that ends at depth jumps, towards
 /// the viewpoint, for which the origin stands where the cloud names none. O(#P * window).
-/// Unorganized: direction of least variance of the `neighbours` nearest points, in double (of up to
-/// 96 where these lie in a narrow strip); towards the viewpoint, or without one consistent along a
-/// minimum spanning tree of the neighbours, whose weights are 1 - |cos| of the mirrored normals
-/// (after Hoppe et al. 1992, section 3.3); in each component the point of largest z looks towards
-/// +z, so that closed surfaces look outwards. O(#P k log #P). Errors: invalid_argument,
-/// bad_geometry, cancelled; `cloud` is then unchanged.
+/// Unorganized: direction of least variance of the `neighbours` nearest points, in double; where
+/// these lie along a line, that of the plane of the line and of the nearest points beside it.
+/// Towards the viewpoint, or without one consistent along a minimum spanning tree of the
+/// neighbours, whose weights are 1 - |cos| of the mirrored normals (after Hoppe et al. 1992,
+/// section 3.3); in each component the points farthest out along the six axes look outwards, and
+/// where these contradict each other that of largest z looks up: closed surfaces look outwards.
+/// O(#P k log #P). Errors: invalid_argument, bad_geometry, cancelled; `cloud` is then unchanged.
 Result<NormalReport> estimate_normals(PointCloud& cloud, const NormalParams& params = {},
                                       const Context& context = {});
 

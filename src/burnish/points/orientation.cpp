@@ -1,6 +1,7 @@
 #include "burnish/points/orientation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -179,20 +180,39 @@ class SpanningTree {
   std::size_t apart_;  ///< sets that hold a normal
 };
 
-/// The point of largest z of every set, at its root's place. Returns the number of sets.
-std::size_t find_tops(std::span<const Vec3f> positions, const std::vector<Vec3f>& normals,
-                      OrientedSets& sets, std::vector<std::uint32_t>& tops) {
-  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  tops.assign(normals.size(), kNone);
-  std::size_t count = 0;
-  for (std::uint32_t i = 0; i < normals.size(); ++i) {
-    if (normals[i] == Vec3f{}) continue;
-    std::uint32_t& top = tops[sets.find(i).root];
-    count += top == kNone;
-    if (top == kNone || positions[i].z > positions[top].z) top = i;
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// The points of a set that are farthest out along -x, +x, -y, +y, -z and +z, of equally far ones
+/// those of the smallest index.
+class Extremes {
+ public:
+  void extend(std::span<const Vec3f> positions, std::uint32_t i) {
+    for (std::size_t side = 0; side < 6; ++side) {
+      std::uint32_t& farthest = farthest_[side];
+      if (farthest == kNone || out(positions[i], side) > out(positions[farthest], side)) {
+        farthest = i;
+      }
+    }
   }
-  return count;
-}
+
+  /// Whether the normals, as `normal_of` gives them, look inwards: on a closed surface all six look
+  /// out; on an open one they may contradict each other, and the top decides.
+  template <class NormalOf>
+  bool look_inwards(NormalOf normal_of) const {
+    double outwards = 0;
+    for (std::size_t side = 0; side < 6; ++side) outwards += out(normal_of(farthest_[side]), side);
+    return std::abs(outwards) > kClear ? outwards < 0 : normal_of(farthest_[5]).z < 0;
+  }
+
+ private:
+  static constexpr double kClear = 2;
+
+  static float out(const Vec3f& v, std::size_t side) {
+    return side % 2 ? v[side / 2] : -v[side / 2];
+  }
+
+  std::array<std::uint32_t, 6> farthest_{kNone, kNone, kNone, kNone, kNone, kNone};
+};
 
 }  // namespace
 
@@ -201,20 +221,28 @@ std::size_t orient_consistently(std::span<const Vec3f> positions, const Neighbou
                                 const Context& context) {
   SpanningTree tree(positions, grid, neighbours, normals, context);
   if (!tree.build()) return 0;
-  std::vector<std::uint32_t> tops;
-  const std::size_t components = find_tops(positions, normals, tree.sets(), tops);
-  std::vector<bool> turned(normals.size());
+  std::vector<std::uint32_t> component(normals.size(), kNone);  // at its root's place
+  std::vector<Extremes> extremes;
   for (std::uint32_t i = 0; i < normals.size(); ++i) {
     if (normals[i] == Vec3f{}) continue;
-    const OrientedSets::Place place = tree.sets().find(i);
-    const std::uint32_t top = tops[place.root];
-    turned[i] = (place.opposite != tree.sets().find(top).opposite) != (normals[top].z < 0);
+    const auto [root, opposite] = tree.sets().find(i);
+    if (component[root] == kNone) {
+      component[root] = static_cast<std::uint32_t>(extremes.size());
+      extremes.emplace_back();
+    }
+    extremes[component[root]].extend(positions, i);
+    if (opposite) normals[i] = -normals[i];
   }
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    if (turned[i]) normals[i] = -normals[i];
+  std::vector<bool> inwards;
+  for (const Extremes& of_component : extremes) {
+    inwards.push_back(of_component.look_inwards([&](std::uint32_t i) { return normals[i]; }));
+  }
+  for (std::uint32_t i = 0; i < normals.size(); ++i) {
+    if (normals[i] == Vec3f{}) continue;
+    if (inwards[component[tree.sets().find(i).root]]) normals[i] = -normals[i];
   }
   context.progress(1);
-  return components;
+  return extremes.size();
 }
 
 }  // namespace burnish

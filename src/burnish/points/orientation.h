@@ -14,9 +14,10 @@ namespace burnish {
 /// 1992, section 3.3), with weights 1 - |cos| between a normal and the neighbour's mirror image in
 /// the plane between the two points; weights below 1/16 count as equal, the links to the nearest
 /// neighbours first. What is then apart from the largest component looks for a light link among its
-/// 96 nearest points. In each component the point of largest z (then of smallest index) looks
-/// towards +z. Points whose normal is 0 take no part. Returns the number of components; where the
-/// context is cancelled, anything. O(#P k).
+/// 96 nearest points. In each component the points farthest out along the six axes look outwards;
+/// where these contradict each other, as on an open surface, that of largest z looks up. Points
+/// whose normal is 0 take no part. Returns the number of components; where the context is cancelled,
+/// anything. O(#P k).
 std::size_t orient_consistently(std::span<const Vec3f> positions, const NeighbourGrid& grid,
                                 const NeighbourLists& neighbours, std::vector<Vec3f>& normals,
                                 const Context& context);

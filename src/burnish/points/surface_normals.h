@@ -12,7 +12,8 @@
 namespace burnish {
 
 /// The normal of each point: the direction in which its neighbours vary least, 0 where they span no
-/// plane. Where they lie in a narrow strip, as along the lines of a scan, up to 96 are looked at.
+/// plane. Where they lie along a line, as on a scan whose lines are far apart, the plane is that of
+/// the line and of the nearest points beside it, among 96.
 /// Normals look towards `viewpoint` (in the frame of the positions), or without one are oriented
 /// consistently (orientation.h), component by component, whose number is then given too. `grid`
 /// and `neighbours` are of `positions`. Returns false where cancelled. O(#P k).

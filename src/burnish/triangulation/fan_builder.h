@@ -11,7 +11,7 @@
 #include "burnish/triangulation/delaunay_star.h"
 #include "burnish/triangulation/direction_ring.h"
 #include "burnish/triangulation/fan_cloud_params.h"
-#include "burnish/triangulation/tangent_frame.h"
+#include "burnish/base/tangent_frame.h"
 
 namespace burnish {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "burnish/triangulation/tangent_frame.h"
+#include "burnish/base/tangent_frame.h"
 #include "burnish/triangulation/turn.h"
 
 namespace burnish {

@@ -25,11 +25,33 @@ constexpr std::size_t kBetweenLooks = 8192;
 /// A hole that measured triangles surround may be wider than what a triangle bridges unasked.
 constexpr double kHoleReach = 1.5;
 
+/// Takes of the candidates, in their order, what is joined to the surface and fits. Returns false
+/// where cancelled.
+bool join_fitting(std::vector<Candidate> candidates, const Context& context,
+                  ManifoldSurface& surface) {
+  std::sort(candidates.begin(), candidates.end(), sooner);
+  // What is not joined to the surface yet may be once others are.
+  for (bool grown = true; grown;) {
+    grown = false;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (i % kBetweenLooks == 0 && context.cancelled()) return false;
+      const Triangle& t = candidates[i].triangle;
+      if (!surface.touches(t)) {
+        candidates[kept++] = candidates[i];
+      } else if (!surface.overlaps(t)) {
+        grown = surface.add_if_manifold(t) || grown;
+      }
+    }
+    candidates.resize(kept);
+  }
+  return true;
+}
+
 /// Three fans that agree on triangles never contradict each other: in a vertex's fan every
-/// neighbour has one successor. The others are taken where they fit.
-/// Returns false where cancelled.
-bool insert_candidates(const std::vector<Candidate>& candidates, const Context& context,
-                       ManifoldSurface& surface) {
+/// neighbour has one successor. The others are taken where they fit. Returns false where cancelled.
+bool insert_by_vote(const std::vector<Candidate>& candidates, const Context& context,
+                    ManifoldSurface& surface) {
   std::vector<Candidate> doubtful;
   for (const Candidate& candidate : candidates) {
     if (candidate.votes == 3) {
@@ -38,24 +60,16 @@ bool insert_candidates(const std::vector<Candidate>& candidates, const Context& 
       doubtful.push_back(candidate);
     }
   }
-  if (context.cancelled()) return false;
-  std::sort(doubtful.begin(), doubtful.end(), sooner);
-  // What is not joined to the surface yet may be once others are.
-  for (bool grown = true; grown;) {
-    grown = false;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < doubtful.size(); ++i) {
-      if (i % kBetweenLooks == 0 && context.cancelled()) return false;
-      const Triangle& t = doubtful[i].triangle;
-      if (!surface.touches(t)) {
-        doubtful[kept++] = doubtful[i];
-      } else if (!surface.overlaps(t)) {
-        grown = surface.add_if_manifold(t) || grown;
-      }
-    }
-    doubtful.resize(kept);
-  }
-  return true;
+  return !context.cancelled() && join_fitting(std::move(doubtful), context, surface);
+}
+
+/// The ends of an edge do not know of a triangle that the third corner's fan alone holds: such ones
+/// are taken once nothing grows any more. Returns false where cancelled.
+bool insert_by_growth(const std::vector<Candidate>& candidates, const Fans& fans,
+                      const TriangleJudge& judge, const Context& context,
+                      ManifoldSurface& surface) {
+  return grow_front(candidates, fans, judge, context, surface) &&
+         join_fitting(candidates, context, surface);
 }
 
 /// Estimates the normals of `positions`, which are points of `cloud`.
@@ -159,8 +173,8 @@ Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalPa
   context.stage("inserting triangles");
   ManifoldSurface surface(positions, normals);
   const bool inserted = params.agreement == Agreement::vote
-                            ? insert_candidates(candidates, context, surface)
-                            : grow_front(candidates, fans, judge, context, surface);
+                            ? insert_by_vote(candidates, context, surface)
+                            : insert_by_growth(candidates, fans, judge, context, surface);
   if (!inserted) return cancelled();
   context.progress(0.85);
   context.stage("closing holes");

@@ -3,7 +3,7 @@
 #include "burnish/core/point_cloud.h"
 #include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/predicates.h"
-#include "burnish/triangulation/tangent_frame.h"
+#include "burnish/base/tangent_frame.h"
 
 namespace burnish {
 
