@@ -72,7 +72,7 @@ std::uint32_t PointOctree::new_bucket() {
   return bucket;
 }
 
-void PointOctree::append(std::uint32_t leaf, const Entry& entry) {
+void PointOctree::append(std::uint32_t leaf, Entry entry) {
   if (nodes_[leaf].count == 0) nodes_[leaf].below = new_bucket();
   buckets_[nodes_[leaf].below][nodes_[leaf].count++] = entry;
 }

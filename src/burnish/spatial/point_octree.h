@@ -78,7 +78,8 @@ class PointOctree {
   void change_leaf_of(const Vec3f& p, std::uint32_t node, const Cell& cell, Change change);
   void split(std::uint32_t node, const Cell& cell);
   void collapse(std::uint32_t node);
-  void append(std::uint32_t leaf, const Entry& entry);
+  /// Takes a copy: the buckets may move to make room for another.
+  void append(std::uint32_t leaf, Entry entry);
   void summarise(std::uint32_t node);
   std::uint32_t new_children();
   std::uint32_t new_bucket();
