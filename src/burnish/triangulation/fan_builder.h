@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "burnish/base/tangent_frame.h"
 #include "burnish/base/vec3.h"
 #include "burnish/spatial/neighbour_grid.h"
 #include "burnish/triangulation/delaunay_star.h"
 #include "burnish/triangulation/direction_ring.h"
 #include "burnish/triangulation/fan_cloud_params.h"
-#include "burnish/base/tangent_frame.h"
 
 namespace burnish {
 

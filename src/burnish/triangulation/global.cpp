@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
+#include <optional>
 
 #include "burnish/core/gather.h"
 #include "burnish/points/surface_normals.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burnish/base/parallel.h"
+#include "burnish/base/tangent_frame.h"
 #include "burnish/triangulation/delaunay_star.h"
 
 namespace burnish {
@@ -21,19 +22,11 @@ constexpr double kSteepSquaredSine = 0.75;
 /// same way have a third between them.
 constexpr double kAlike = 0.8, kAlikeSquaredSine = 0.99;
 
-/// Two unit vectors that make a right-handed frame with the unit vector n (Duff et al. 2017).
-void tangents(const Vec3d& n, Vec3d& u, Vec3d& v) {
-  const double sign = std::copysign(1.0, n.z);
-  const double a = -1 / (sign + n.z), b = n.x * n.y * a;
-  u = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-  v = {b, sign + n.y * n.y * a, -n.y};
-}
-
 /// Builds fan after fan with the same scratch memory.
-class FanBuilder {
+class StarBuilder {
  public:
-  FanBuilder(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
-             const NeighbourGrid& grid, const NeighbourLists& neighbours, const FanRule& rule)
+  StarBuilder(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
+              const NeighbourGrid& grid, const NeighbourLists& neighbours, const FanRule& rule)
       : positions_(positions),
         normals_(normals),
         grid_(grid),
@@ -88,8 +81,7 @@ class FanBuilder {
     plane_.clear();
     const Vec3d centre(positions_[p]), normal(normals_[p]);
     if (squared_norm(normal) == 0) return;
-    Vec3d u, v;
-    tangents(normal, u, v);
+    const TangentFrame tangents(normal);
     for (const std::uint32_t q : near) {
       const double alike = dot(normal, Vec3d(normals_[q]));
       if (q == p || alike <= rule_.cos_sheet_angle) continue;
@@ -97,7 +89,7 @@ class FanBuilder {
       const double height = dot(normal, to);
       const double steepest = alike > kAlike ? kAlikeSquaredSine : kSteepSquaredSine;
       if (height * height > steepest * squared_norm(to)) continue;
-      plane_.push_back({dot(u, to), dot(v, to), q});
+      plane_.push_back({dot(tangents.u, to), dot(tangents.v, to), q});
     }
   }
 
@@ -138,7 +130,7 @@ bool build_fans(std::span<const Vec3f> positions, std::span<const Vec3f> normals
   const bool complete = parallel_for(
       context, blocks,
       [&](IndexRange range) {
-        FanBuilder builder(positions, normals, grid, neighbours, rule);
+        StarBuilder builder(positions, normals, grid, neighbours, rule);
         for (std::size_t block = range.begin; block < range.end; ++block) {
           rims[block].reserve(7 * kPointsAtOnce);
           const std::size_t end = std::min(count, (block + 1) * kPointsAtOnce);

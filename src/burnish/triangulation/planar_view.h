@@ -1,9 +1,9 @@
 #pragma once
 
+#include "burnish/base/tangent_frame.h"
 #include "burnish/core/point_cloud.h"
 #include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/predicates.h"
-#include "burnish/base/tangent_frame.h"
 
 namespace burnish {
 

@@ -14,19 +14,6 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 1) & 0x5555555555555555;
 }
 
-void sort_within_cells(std::vector<Keyed>& items, std::span<const Vec2d> points) {
-  const auto before = [&](const Keyed& a, const Keyed& b) {
-    const Vec2d &p = points[a.index], &q = points[b.index];
-    return p == q ? a.index < b.index : lexicographically_less(p, q);
-  };
-  for (auto begin = items.begin(); begin != items.end();) {
-    auto end = begin + 1;
-    while (end != items.end() && end->key == begin->key) ++end;
-    if (end - begin > 1) std::sort(begin, end, before);
-    begin = end;
-  }
-}
-
 }  // namespace
 
 std::vector<Keyed> order_in_plane(std::span<const Vec2d> points) {
@@ -46,7 +33,10 @@ std::vector<Keyed> order_in_plane(std::span<const Vec2d> points) {
     items.push_back({spread(column) | spread(row) << 1, i});
   }
   sort_by_key(items);
-  sort_within_cells(items, points);
+  sort_equal_keys(items, [&](const Keyed& a, const Keyed& b) {
+    const Vec2d &p = points[a.index], &q = points[b.index];
+    return p == q ? a.index < b.index : lexicographically_less(p, q);
+  });
   return items;
 }
 

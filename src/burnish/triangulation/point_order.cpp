@@ -49,12 +49,7 @@ std::vector<std::uint32_t> order_along_curve(std::span<const Vec3f> points) {
     if (p.y != q.y) return p.y < q.y;
     return p.z != q.z ? p.z < q.z : a.index < b.index;
   };
-  for (auto begin = items.begin(); begin != items.end();) {
-    auto end = begin + 1;
-    while (end != items.end() && end->key == begin->key) ++end;
-    if (end - begin > 1) std::sort(begin, end, before);
-    begin = end;
-  }
+  sort_equal_keys(items, before);
   std::vector<std::uint32_t> order;
   order.reserve(items.size());
   for (const Keyed& item : items) {
