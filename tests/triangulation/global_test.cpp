@@ -3,14 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "burnish/base/random.h"
 #include "burnish/core/gather.h"
 #include "burnish/core/topology.h"
 #include "burnish/io/geometry_file.h"
+#include "burnish/spatial/neighbour_grid.h"
+#include "burnish/triangulation/local_fans.h"
+#include "burnish/triangulation/triangle_gap.h"
 #include "support/test_data.h"
 
 namespace burnish {
@@ -204,12 +209,12 @@ TriangleMesh of_origin(TriangleMesh mesh, Origin origin) {
 }
 
 TEST(TriangulateGlobal, MarksWhatClosesAHoleAsInvented) {
-  PointCloud cloud;  // a hole of 4 x 4 whose middle is too wide for a measured triangle
+  PointCloud cloud;  // a hole of 4 x 4, too wide for a measured triangle
   for (const Vec3f& p : plane(30, 30, 1).positions) {
     if (std::max(std::abs(p.x - 15), std::abs(p.y - 15)) > 1.5f) cloud.positions.push_back(p);
   }
   for (const Agreement agreement : kBoth) {
-    GlobalParams params{.agreement = agreement, .max_gap = 2, .hole_edges = 0};
+    GlobalParams params{.agreement = agreement, .max_gap = 0.8, .hole_edges = 0};
     const auto open = triangulate_global(cloud, params);
     params.hole_edges = 16;
     const auto closed = triangulate_global(cloud, params);
@@ -221,6 +226,65 @@ TEST(TriangulateGlobal, MarksWhatClosesAHoleAsInvented) {
     EXPECT_EQ(closed->report.invented_triangles,
               closed->mesh.triangles.size() - open->mesh.triangles.size());
     EXPECT_EQ(as_positions(of_origin(closed->mesh, Origin::seen)), as_positions(open->mesh));
+  }
+}
+
+TEST(TriangulateGlobal, SpansNoGapOfMoreThanTwoSpacings) {
+  // Points at random leave gaps of many spacings of their median edges.
+  PointCloud cloud;
+  Random random(11);
+  while (cloud.positions.size() < 4000) {
+    const Vec3d direction = normalized(random_offset(random, 1));
+    cloud.positions.push_back(Vec3f(direction));
+    cloud.attributes.normals.push_back(Vec3f(direction));
+  }
+  for (std::size_t i = cloud.positions.size(); i-- > 0;) {  // and a belt of few
+    if (std::abs(cloud.positions[i].z) < 0.1f && i % 8 != 0) {
+      cloud.positions.erase(cloud.positions.begin() + static_cast<std::ptrdiff_t>(i));
+      cloud.attributes.normals.erase(cloud.attributes.normals.begin() +
+                                     static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  const NeighbourGrid grid(cloud.positions);
+  NeighbourLists neighbours;
+  Fans fans;
+  ASSERT_TRUE(grid.nearest_of_all(17, {}, neighbours));
+  ASSERT_TRUE(
+      build_fans(cloud.positions, cloud.attributes.normals, grid, neighbours, {}, {}, fans));
+  std::map<std::array<float, 3>, double> spacing;
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
+    const Vec3f& p = cloud.positions[i];
+    spacing[{p.x, p.y, p.z}] = fans.spacing(i);
+  }
+  for (const Agreement agreement : kBoth) {
+    const auto result = triangulate_global(cloud, {.agreement = agreement});
+    ASSERT_TRUE(result);
+    double widest = 0;
+    for (const Triangle& t : result->mesh.triangles) {
+      double largest = 0;
+      for (const std::uint32_t v : t) {
+        const Vec3f& p = result->mesh.positions[v];
+        largest = std::max(largest, spacing.at({p.x, p.y, p.z}));
+      }
+      widest = std::max(widest, triangle_gap(Vec3d(result->mesh.positions[t[0]]),
+                                             Vec3d(result->mesh.positions[t[1]]),
+                                             Vec3d(result->mesh.positions[t[2]])) /
+                                    largest);
+    }
+    EXPECT_LE(widest, 2);
+    EXPECT_GE(widest, 1.2);
+  }
+}
+
+TEST(TriangulateGlobal, LeavesNoShredsBesideTheSurface) {
+  BURNISH_DATA_OR_SKIP(path, "stanford/buddha_photon.obj");
+  const auto cloud = read_cloud(path);
+  ASSERT_TRUE(cloud);
+  for (const Agreement agreement : kBoth) {
+    const auto result = triangulate_global(*cloud, {.agreement = agreement});
+    ASSERT_TRUE(result);
+    expect_oriented_manifold(result->mesh);
+    EXPECT_EQ(topology(result->mesh).components, 1u);
   }
 }
 

@@ -18,12 +18,15 @@
 namespace burnish {
 namespace {
 
+/// A shred has at most so many vertices.
+constexpr std::size_t kShred = 12;
+
 /// So many triangles or points are dealt with, in some milliseconds, between two looks at whether
 /// the run was cancelled.
 constexpr std::size_t kBetweenLooks = 8192;
 
 /// A hole that measured triangles surround may be wider than what a triangle bridges unasked.
-constexpr double kHoleReach = 1.5;
+constexpr double kHoleReach = 4.0 / 3;
 
 /// Takes of the candidates, in their order, what is joined to the surface and fits. Returns false
 /// where cancelled.
@@ -98,6 +101,23 @@ bool separate_pinched_vertices(ManifoldSurface& surface, const Context& context)
   return true;
 }
 
+/// Removes small pieces where the fan of one of their vertices reaches a larger one, which they did
+/// not fit into. Returns false where cancelled.
+bool remove_shreds(const Fans& fans, ManifoldSurface& surface, const Context& context) {
+  std::vector<std::uint32_t> shreds;
+  for (const ManifoldSurface::Corner& corner : surface.corners()) {
+    if (context.cancelled()) return false;
+    if (surface.is_larger(corner.vertex, kShred)) continue;
+    const auto rim = fans.rim(corner.vertex);
+    const bool beside = std::any_of(rim.begin(), rim.end(), [&](std::uint32_t q) {
+      return q != Fans::kGap && surface.is_larger(q, kShred);
+    });
+    if (beside) shreds.push_back(corner.vertex);
+  }
+  for (const std::uint32_t vertex : shreds) surface.remove_piece(vertex);
+  return true;
+}
+
 /// The surface as a mesh of points of `cloud`, which `order` names.
 Triangulation to_mesh(const ManifoldSurface& surface, const PointCloud& cloud,
                       const std::vector<std::uint32_t>& order) {
@@ -129,7 +149,8 @@ const Schema<GlobalParams>& GlobalParams::schema() {
           .real("sheet_angle", &P::sheet_angle, between(0, std::numbers::pi),
                 "neighbours whose normals are further apart are on another sheet", Quantity::angle)
           .real("max_gap", &P::max_gap, more_than(0),
-                "widest circumscribed circle, relative to the median edge of a corner's fan")
+                "farthest that a point of a triangle is from its nearest corner, relative to the "
+                "median edge of a corner's fan")
           .integer("hole_edges", &P::hole_edges, between(0, 100),
                    "boundary loops of at most so many edges are closed");
   return schema;
@@ -183,7 +204,8 @@ Result<Triangulation> triangulate_global(const PointCloud& cloud, const GlobalPa
   const auto close_holes = [&] {
     return close_small_holes(surface, positions, normals, fans, hole_rule, context);
   };
-  if (!close_holes() || !separate_pinched_vertices(surface, context) || !close_holes()) {
+  if (!close_holes() || !separate_pinched_vertices(surface, context) ||
+      !remove_shreds(fans, surface, context) || !close_holes()) {
     return cancelled();
   }
 

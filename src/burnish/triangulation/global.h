@@ -15,7 +15,7 @@ struct GlobalParams {
   int neighbours = 16;
   int most_neighbours = 96;
   double sheet_angle = 1.5707963267948966;  // 90 degrees
-  double max_gap = 3;
+  double max_gap = 1.5;
   int hole_edges = 12;
 
   static const Schema<GlobalParams>& schema();
@@ -31,9 +31,10 @@ struct GlobalParams {
 /// these triangles have the origin `invented`.
 ///
 /// Normals are used where the cloud has them and are estimated otherwise (surface_normals.h); they
-/// tell two sheets apart that are nearer than the sampling. No triangle is larger than its
-/// surroundings' sampling: its circumscribed circle is at most `max_gap` times as wide as the
-/// largest of its corners' median edges; those that close a hole may be half as wide again.
+/// tell two sheets apart that are nearer than the sampling. No triangle spans a gap of the
+/// sampling: no point of it is farther from its nearest corner than `max_gap` times the largest of
+/// its corners' median edges; those that close a hole may span a third more, by default two edges.
+/// Pieces of at most twelve vertices that did not fit into the surface beside them are left out.
 ///
 /// The result: no edge with three triangles, no vertex with two fans, one orientation, along the
 /// normals. Points without a place in it and all but one of coincident points are left out;

@@ -118,6 +118,20 @@ void ManifoldSurface::remove(std::uint32_t triangle) {
   t = {kNone, kNone, kNone};
 }
 
+void ManifoldSurface::remove_piece(std::uint32_t v) {
+  std::vector<std::uint32_t> left{v};
+  while (!left.empty()) {
+    const std::uint32_t w = left.back();
+    if (!uses(w)) {
+      left.pop_back();
+      continue;
+    }
+    const std::uint32_t triangle = first_corner_[w] / 3;
+    for (const std::uint32_t x : triangles_[triangle]) left.push_back(x);
+    remove(triangle);
+  }
+}
+
 /// The ends of the paths in the link of v: those without a predecessor, those without a successor;
 /// each rising.
 void ManifoldSurface::ends(std::uint32_t v, std::vector<std::uint32_t>& begins,

@@ -46,6 +46,9 @@ class ManifoldSurface {
 
   void remove(std::uint32_t triangle);
 
+  /// Removes all triangles that hang together with `v`.
+  void remove_piece(std::uint32_t v);
+
   /// Whether some triangle has the edge from a to b in this direction.
   bool has_edge(std::uint32_t a, std::uint32_t b) const { return successor(a, b) != kNone; }
 

@@ -1,10 +1,11 @@
 #include "burnish/triangulation/small_holes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
+
+#include "burnish/triangulation/triangle_gap.h"
 
 namespace burnish {
 namespace {
@@ -44,20 +45,16 @@ std::vector<Loop> small_loops(ManifoldSurface& surface, std::size_t max_edges) {
   return loops;
 }
 
-/// The squared diameter of the smallest circle around a triangle, from its squared edges and the
-/// square of twice its area: an edge of an obtuse one, the circumscribed circle else.
-double squared_width(const std::array<double, 3>& squared, double squared_area) {
-  const double longest = std::max({squared[0], squared[1], squared[2]});
-  const double others = squared[0] + squared[1] + squared[2] - longest;
-  return others <= longest ? longest : squared[0] * squared[1] * squared[2] / squared_area;
-}
-
 /// The best triangulation of one loop.
 class LoopTriangulation {
  public:
   LoopTriangulation(const ManifoldSurface& surface, std::span<const Vec3f> positions,
-                    std::span<const Vec3f> normals, const Fans& fans, double reach)
-      : surface_(surface), positions_(positions), normals_(normals), fans_(fans), reach_(reach) {}
+                    std::span<const Vec3f> normals, const Fans& fans, double max_gap)
+      : surface_(surface),
+        positions_(positions),
+        normals_(normals),
+        fans_(fans),
+        max_gap_(max_gap) {}
 
   /// Whether `loop` is not the rim of an island: whether what fills it looks along the normals, or
   /// belongs to much more than it.
@@ -105,13 +102,10 @@ class LoopTriangulation {
     for (const std::uint32_t v : {a, b, c}) {
       if (!(dot(area, Vec3d(normals_[v])) > 0)) fold *= kFoldPenalty;
     }
-    const std::array<double, 3> squared{squared_norm(q - p), squared_norm(r - q),
-                                        squared_norm(p - r)};
-    const double most = reach_ * std::max({fans_.spacing(a), fans_.spacing(b), fans_.spacing(c)});
-    if (squared_width(squared, squared_norm(area)) > most * most) {
-      return std::numeric_limits<double>::infinity();
-    }
-    return fold * (squared[0] + squared[1] + squared[2]) / norm(area);
+    const double spacing = std::max({fans_.spacing(a), fans_.spacing(b), fans_.spacing(c)});
+    if (triangle_gap(p, q, r) > max_gap_ * spacing) return std::numeric_limits<double>::infinity();
+    const double edges = squared_norm(q - p) + squared_norm(r - q) + squared_norm(p - r);
+    return fold * edges / norm(area);
   }
 
   void collect(const Loop& loop, std::size_t i, std::size_t k,
@@ -126,7 +120,7 @@ class LoopTriangulation {
   const ManifoldSurface& surface_;
   std::span<const Vec3f> positions_, normals_;
   const Fans& fans_;
-  double reach_;
+  double max_gap_;
   std::vector<double> cost_;
   std::vector<std::size_t> apex_;
 };
@@ -137,7 +131,7 @@ bool close_small_holes(ManifoldSurface& surface, std::span<const Vec3f> position
                        std::span<const Vec3f> normals, const Fans& fans, const HoleRule& rule,
                        const Context& context) {
   if (context.cancelled()) return false;
-  LoopTriangulation triangulation(surface, positions, normals, fans, rule.reach);
+  LoopTriangulation triangulation(surface, positions, normals, fans, rule.max_gap);
   std::vector<Triangle> triangles;
   for (const Loop& loop : small_loops(surface, rule.max_edges)) {
     if (context.cancelled()) return false;

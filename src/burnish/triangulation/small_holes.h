@@ -11,7 +11,7 @@ namespace burnish {
 /// How holes are closed.
 struct HoleRule {
   std::size_t max_edges = 12;
-  double reach = 2.5;  ///< triangles fit into a circle of so many spacings of their corners
+  double max_gap = 2;  ///< widest gap of a triangle, in the largest spacing of its corners
 };
 
 /// Closes boundary loops of at most `max_edges` edges by the triangulation of best shape (the least

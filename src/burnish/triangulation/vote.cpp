@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "burnish/base/parallel.h"
+#include "burnish/triangulation/triangle_gap.h"
 
 namespace burnish {
 namespace {
@@ -33,18 +34,15 @@ bool TriangleJudge::accepts(const Triangle& t, int votes, Candidate& candidate) 
   for (const std::uint32_t v : t) {
     if (!(dot(area, Vec3d(normals_[v])) > 0)) return false;
   }
-  const double bc = squared_norm(c - b), ca = squared_norm(a - c), ab = squared_norm(b - a);
-  const double doubled = squared_norm(area);  // (2 area)^2
   const double spacing = std::max({fans_.spacing(t[0]), fans_.spacing(t[1]), fans_.spacing(t[2])});
-  // The diameter of the circumscribed circle is |ab| |bc| |ca| / (2 area).
-  if (!(ab * bc * ca <= squared_reach_ * spacing * spacing * doubled)) return false;
+  if (!(triangle_gap(a, b, c) <= max_gap_ * spacing)) return false;
   candidate.triangle = t;
   std::rotate(candidate.triangle.begin(),
               std::min_element(candidate.triangle.begin(), candidate.triangle.end()),
               candidate.triangle.end());
   candidate.votes = static_cast<std::uint8_t>(votes);
-  candidate.shape =
-      static_cast<float>(2 * std::numbers::sqrt3 * std::sqrt(doubled) / (ab + bc + ca));
+  const double edges = squared_norm(c - b) + squared_norm(a - c) + squared_norm(b - a);
+  candidate.shape = static_cast<float>(2 * std::numbers::sqrt3 * norm(area) / edges);
   return true;
 }
 

@@ -27,10 +27,10 @@ inline bool sooner(const Candidate& a, const Candidate& b) {
 /// Says which triangles of the fans can be part of a surface.
 class TriangleJudge {
  public:
-  /// `reach`: widest circumscribed circle, in the largest spacing of the corners.
+  /// `max_gap`: widest gap of a triangle (triangle_gap.h), in the largest spacing of its corners.
   TriangleJudge(std::span<const Vec3f> positions, std::span<const Vec3f> normals, const Fans& fans,
-                double reach)
-      : positions_(positions), normals_(normals), fans_(fans), squared_reach_(reach * reach) {}
+                double max_gap)
+      : positions_(positions), normals_(normals), fans_(fans), max_gap_(max_gap) {}
 
   /// Whether `t` spans no gap and faces along the normals of its corners; it is then `candidate`.
   bool accepts(const Triangle& t, Candidate& candidate) const;
@@ -40,7 +40,7 @@ class TriangleJudge {
  private:
   std::span<const Vec3f> positions_, normals_;
   const Fans& fans_;
-  double squared_reach_;
+  double max_gap_;
 };
 
 /// Every triangle of the fans that `judge` accepts, once, in the order of the fans. Returns false
