@@ -230,20 +230,22 @@ TEST(TriangulateGlobal, MarksWhatClosesAHoleAsInvented) {
 }
 
 TEST(TriangulateGlobal, SpansNoGapOfMoreThanTwoSpacings) {
-  // Points at random leave gaps of many spacings of their median edges.
-  PointCloud cloud;
+  // A sphere with round gaps of three to six spacings.
+  constexpr std::size_t kPoints = 4000;
+  const double spacing_of_all = std::sqrt(4 * std::numbers::pi / kPoints);
   Random random(11);
-  while (cloud.positions.size() < 4000) {
-    const Vec3d direction = normalized(random_offset(random, 1));
-    cloud.positions.push_back(Vec3f(direction));
-    cloud.attributes.normals.push_back(Vec3f(direction));
-  }
-  for (std::size_t i = cloud.positions.size(); i-- > 0;) {  // and a belt of few
-    if (std::abs(cloud.positions[i].z) < 0.1f && i % 8 != 0) {
-      cloud.positions.erase(cloud.positions.begin() + static_cast<std::ptrdiff_t>(i));
-      cloud.attributes.normals.erase(cloud.attributes.normals.begin() +
-                                     static_cast<std::ptrdiff_t>(i));
-    }
+  std::vector<Vec3d> centres;
+  for (int i = 0; i < 30; ++i) centres.push_back(normalized(random_offset(random, 1)));
+  PointCloud cloud;
+  for (const Vec3f& p : sphere(kPoints, 0, 1).positions) {
+    std::size_t gap = 0;
+    const auto inside = [&](std::size_t i) {
+      return norm(Vec3d(p) - centres[i]) < (1.5 + 0.05 * static_cast<double>(i)) * spacing_of_all;
+    };
+    while (gap < centres.size() && !inside(gap)) ++gap;
+    if (gap < centres.size()) continue;
+    cloud.positions.push_back(p);
+    cloud.attributes.normals.push_back(p);
   }
   const NeighbourGrid grid(cloud.positions);
   NeighbourLists neighbours;
