@@ -9,6 +9,7 @@
 #include "burnish/base/parallel.h"
 #include "burnish/core/adjacency.h"
 #include "burnish/smoothing/smoothing.h"
+#include "burnish/smoothing/smoothing_weights.h"
 
 // What the smoothings that move vertices to weighted means of their one-rings share. Not part of
 // the library's interface.
@@ -67,13 +68,15 @@ bool for_in_order(const Context& context, std::size_t count,
 /// itself, all of one pass computed from the positions before it, in double from the first pass to
 /// the last. `weigh(ring, weights, scratch)` fills one weight per neighbour and returns the
 /// vertex's own; their sum must be positive; `scratch` is as long as `weights`. Vertices without
-/// neighbours under the boundary rule stay. Normals that are there are computed anew, sigma follows
-/// SigmaFilter, all other attributes stay as they are. On error or cancellation `mesh` is
-/// unchanged. O(iterations * #T).
+/// neighbours under the boundary rule stay, and smoothing_weights.h holds others back. Normals that
+/// are there are computed anew, sigma follows SigmaFilter, all other attributes stay as they are.
+/// On error or cancellation `mesh` is unchanged. O(iterations * #T).
 template <class Weigh>
 Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passes,
                                      const Context& context, const Weigh& weigh) {
   if (auto sound = check(mesh); !sound) return sound.error();
+  const Result<std::vector<float>> follows = smoothing_weights(mesh);
+  if (!follows) return follows.error();
   const Adjacency rings = smoothing_rings(mesh, passes.boundary);
   const std::size_t longest = longest_row(rings);
   std::vector<Vec3d> positions = in_double(mesh.positions), next = positions;
@@ -104,10 +107,12 @@ Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passe
         total += weights[i];
         sum += weights[i] * ring[i];
       }
-      next[v] = (1 - passes.damping) * (sum / total) + passes.damping * source[v];
+      const double hold =
+          follows->empty() ? passes.damping : 1 - (1 - passes.damping) * (*follows)[v];
+      next[v] = (1 - hold) * (sum / total) + hold * source[v];
       if (sigma.wanted()) {
-        const double share = (1 - passes.damping) / total;
-        sigma.move(v, row, share * own + passes.damping, weights, share);
+        const double share = (1 - hold) / total;
+        sigma.move(v, row, share * own + hold, weights, share);
       }
     }
   };
