@@ -6,6 +6,7 @@
 #include "burnish/repair/small_components.h"
 #include "burnish/smoothing/bilateral_normal.h"
 #include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/guided_normal.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
 #include "burnish/triangulation/delaunay.h"
@@ -75,6 +76,9 @@ std::span<const SmoothOperation> smooth_operations() {
       edit_operation("bilateral_normal", smooth_bilateral_normal,
                      "Face normals are averaged with like ones around them, vertices follow them.",
                      "zheng_2011"),
+      edit_operation("guided_normal", smooth_guided_normal,
+                     "Face normals are filtered along the patches that are most of one piece.",
+                     "zhang_2015"),
   };
   return list;
 }

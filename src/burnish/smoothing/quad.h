@@ -41,6 +41,11 @@ struct Quad {
   friend Quad operator*(float a, const Quad& b) { return Quad(a) * b; }
 };
 
+/// Of every lane the larger one.
+inline Quad larger(const Quad& a, const Quad& b) {
+  return Quad(a.lanes > b.lanes ? a.lanes : b.lanes);
+}
+
 /// x, y and z together.
 inline float sum3(const Quad& a) {
   return a[0] + a[1] + a[2];
