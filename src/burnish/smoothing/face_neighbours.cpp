@@ -71,18 +71,22 @@ bool vertex_neighbours(const Context& context, const TriangleMesh& mesh,
 
 bool neighbours_within(const Context& context, float radius, const std::vector<Quad>& centroids,
                        const Adjacency& vertex_neighbours, Adjacency& neighbours) {
+  constexpr std::uint32_t kNever = ~0u;
   const float limit = radius * radius;
   const auto make_append = [&] {
-    return [&](std::size_t f, auto& items) {
+    return [&, seen_from = std::vector<std::uint32_t>(centroids.size(), kNever)](
+               std::size_t f, auto& items) mutable {
       // Breadth first; what is found is its own queue.
       const std::size_t begin = items.size();
-      items.push_back(static_cast<std::uint32_t>(f));
+      const auto own = static_cast<std::uint32_t>(f);
+      seen_from[f] = own;
+      items.push_back(own);
       for (std::size_t next = begin; next < items.size(); ++next) {
         for (const std::uint32_t g : vertex_neighbours.row(items[next])) {
+          if (seen_from[g] == own) continue;
+          seen_from[g] = own;
           const Quad offset = centroids[g] - centroids[f];
-          if (!(dot3(offset, offset) < limit)) continue;
-          const auto first = items.begin() + static_cast<std::ptrdiff_t>(begin);
-          if (std::find(first, items.end(), g) == items.end()) items.push_back(g);
+          if (dot3(offset, offset) < limit) items.push_back(g);
         }
       }
       sort_new(items, begin);
