@@ -19,7 +19,7 @@ Result<FaceWork> begin_face_work(const TriangleMesh& mesh, const Context& contex
                          work.vertex_neighbours)) {
     return cancelled();
   }
-  work.surface = face_surface(mesh, work.edge_neighbours);
+  work.surface = face_surface(mesh, mean_centroid_distance(mesh, work.edge_neighbours));
   return work;
 }
 

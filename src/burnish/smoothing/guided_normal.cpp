@@ -37,7 +37,7 @@ Result<SmoothingReport> smooth_guided_normal(TriangleMesh& mesh, const GuidedNor
   Adjacency ball;
   PatchGuidance patches;
   if (!measure_faces(context.part(0.03, 0.04), mesh.triangles, positions, faces) ||
-      !neighbours_within(context.part(0.04, 0.07), static_cast<float>(params.relative_radius),
+      !connected_within(context.part(0.04, 0.07), static_cast<float>(params.relative_radius),
                          faces.centroids, work->vertex_neighbours, ball) ||
       !patches.prepare(context.part(0.07, 0.1), work->edge_neighbours, work->vertex_neighbours)) {
     return cancelled();

@@ -33,7 +33,7 @@ VertexUpdate::VertexUpdate(const TriangleMesh& mesh, const Adjacency& faces_of_v
   const std::size_t vertices = mesh.positions.size(), faces = mesh.triangles.size();
   if (follows_.empty()) follows_.assign(vertices, 1);
   stays_.assign(vertices, false);
-  if (rules.boundary != BoundaryRule::free) stays_ = on_boundary_;
+  if (rules.boundary == BoundaryRule::fixed) stays_ = on_boundary_;
   if (rules.boundary == BoundaryRule::along_boundary) along_boundary_ = boundary_neighbours(mesh);
   pulls_.resize(faces);
   offsets_.resize(faces);
