@@ -1,5 +1,6 @@
 #include "burnish/smoothing/bilateral.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -14,39 +15,84 @@
 namespace burnish {
 namespace {
 
-/// How far along `normal` the vertex at `centre` goes. `heights` is scratch.
-double move_along(const Vec3d& normal, const Vec3d& centre, std::span<const std::uint32_t> around,
-                  std::span<const Vec3d> positions, double sigma_c, std::vector<double>& heights) {
-  heights.clear();
-  double mean = 0, variance = 0;
-  const auto count = static_cast<double>(around.size());
-  for (const std::uint32_t q : around) {
-    heights.push_back(dot(normal, positions[q] - centre));
-    mean += heights.back() / count;
-  }
-  for (const double h : heights) variance += (h - mean) * (h - mean) / count;
-  // Where all heights are the same any sigma_s gives them the same weight.
-  const double alike = variance > 0 ? 1 / (2 * variance) : 0;
-  const double near = 1 / (2 * sigma_c * sigma_c);
-  double sum = 0, weights = 0;
-  for (std::size_t k = 0; k < around.size(); ++k) {
-    const double h = heights[k];
-    const double weight =
-        std::exp(-near * squared_norm(positions[around[k]] - centre) - alike * h * h);
-    sum += weight * h;
-    weights += weight;
-  }
-  return weights > 0 ? sum / weights : 0;
-}
+/// What stays the same from pass to pass.
+struct Neighbourhoods {
+  Adjacency around;  ///< of every vertex those within 2 sigma_c, itself among them
+  Adjacency faces_of_vertices;
+};
 
-/// The vertices that each is moved with, itself left out.
-bool neighbourhoods(const Context& context, const TriangleMesh& mesh, const FaceSurface& surface,
-                    BoundaryRule boundary, double sigma_c, Adjacency& around) {
+Result<Neighbourhoods> find_neighbourhoods(const TriangleMesh& mesh, const FaceSurface& surface,
+                                           const BilateralParams& params, const Context& context) {
   std::vector<Quad> points;
   points.reserve(surface.positions.size());
   for (const Vec3d& p : surface.positions) points.emplace_back(Vec3f(p), 0.f);
-  return connected_within(context, static_cast<float>(2 * sigma_c), points,
-                          smoothing_rings(mesh, boundary), around);
+  const auto radius = static_cast<float>(2 * params.relative_width);
+  Neighbourhoods found;
+  found.faces_of_vertices = triangles_of_vertices(mesh);
+  if (!connected_within(context, radius, points, smoothing_rings(mesh, params.boundary),
+                        found.around)) {
+    return cancelled();
+  }
+  return found;
+}
+
+/// The area-mean of the faces' normals; 0 where there are none.
+Vec3d mean_normal(const FaceNormals& normals, std::span<const std::uint32_t> faces) {
+  Vec3d sum;
+  for (const std::uint32_t f : faces) {
+    sum += static_cast<double>(normals[f].w()) * Vec3d(normals[f].xyz());
+  }
+  return normalized(sum);
+}
+
+/// Of the heights of vertices over the plane through one of them: their standard deviation.
+double roughness(const Vec3d& normal, const Vec3d& centre, std::span<const std::uint32_t> around,
+                 std::span<const Vec3d> positions) {
+  const auto count = static_cast<double>(around.size());
+  double mean = 0, variance = 0;
+  for (const std::uint32_t q : around) mean += dot(normal, positions[q] - centre) / count;
+  for (const std::uint32_t q : around) {
+    const double apart = dot(normal, positions[q] - centre) - mean;
+    variance += apart * apart / count;
+  }
+  return std::sqrt(variance);
+}
+
+/// The median over all vertices that have neighbours; 0 where there are none.
+double median_roughness(const Neighbourhoods& hoods, const FaceNormals& normals,
+                        std::span<const Vec3d> positions) {
+  std::vector<double> all;
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const auto around = hoods.around.row(v);
+    if (around.size() < 2) continue;
+    const Vec3d normal = mean_normal(normals, hoods.faces_of_vertices.row(v));
+    all.push_back(roughness(normal, positions[v], around, positions));
+  }
+  if (all.empty()) return 0;
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
+struct Widths {
+  double sigma_c, sigma_s;  ///< positive
+};
+
+/// How far along `normal` the vertex at `centre` goes.
+double height_of_neighbours(const Vec3d& normal, const Vec3d& centre,
+                            std::span<const std::uint32_t> around, std::span<const Vec3d> positions,
+                            const Widths& widths) {
+  const double near = 1 / (2 * widths.sigma_c * widths.sigma_c);
+  const double alike = 1 / (2 * widths.sigma_s * widths.sigma_s);
+  double sum = 0, weights = 0;
+  for (const std::uint32_t q : around) {
+    const Vec3d away = positions[q] - centre;
+    const double h = dot(normal, away);
+    const double weight = std::exp(-near * squared_norm(away) - alike * h * h);
+    sum += weight * h;
+    weights += weight;
+  }
+  return sum / weights;  // the vertex itself weighs 1
 }
 
 }  // namespace
@@ -71,33 +117,29 @@ Result<SmoothingReport> smooth_bilateral(TriangleMesh& mesh, const BilateralPara
   if (!follows) return follows.error();
   const double edge = mean_edge_length(mesh);
   const FaceSurface surface = face_surface(mesh, edge > 0 ? edge : 1);
-  const Adjacency faces_of_vertices = triangles_of_vertices(mesh);
-  Adjacency around;
-  if (!neighbourhoods(context.part(0, 0.2), mesh, surface, params.boundary, params.relative_width,
-                      around)) {
-    return cancelled();
-  }
+  const auto hoods = find_neighbourhoods(mesh, surface, params, context.part(0, 0.2));
+  if (!hoods) return hoods.error();
   std::vector<Vec3d> positions = surface.positions, next = positions;
   FaceGeometry faces;
+  if (!measure_faces(context.part(0.2, 0.25), mesh.triangles, positions, faces)) return cancelled();
+  const Widths widths{.sigma_c = params.relative_width,
+                      .sigma_s = median_roughness(*hoods, faces.normals, positions)};
+
   const auto move = [&](IndexRange range) {
-    std::vector<double> heights;
     for (std::size_t v = range.begin; v < range.end; ++v) {
-      Vec3d normal;
-      for (const std::uint32_t f : faces_of_vertices.row(v)) {
-        normal += static_cast<double>(faces.normals[f].w()) * Vec3d(faces.normals[f].xyz());
-      }
-      normal = normalized(normal);
+      const Vec3d normal = mean_normal(faces.normals, hoods->faces_of_vertices.row(v));
       const double share = follows->empty() ? 1 : (*follows)[v];
       next[v] = positions[v] + share *
-                                   move_along(normal, positions[v], around.row(v), positions,
-                                              params.relative_width, heights) *
+                                   height_of_neighbours(normal, positions[v], hoods->around.row(v),
+                                                        positions, widths) *
                                    normal;
     }
   };
-  const Context passes = context.part(0.2, 1);
-  for (int i = 0; i < params.iterations; ++i) {
-    const Context share =
-        passes.part(static_cast<double>(i) / params.iterations, (i + 1.0) / params.iterations);
+  // Where most of a mesh is exactly flat there is no noise, and sigma_s is 0: all stays.
+  const int passes = widths.sigma_s > 0 ? params.iterations : 0;
+  const Context moving = context.part(0.25, 1);
+  for (int i = 0; i < passes; ++i) {
+    const Context share = moving.part(static_cast<double>(i) / passes, (i + 1.0) / passes);
     if (!measure_faces(share.part(0, 0.2), mesh.triangles, positions, faces) ||
         !parallel_for(share.part(0.2, 1), positions.size(), move)) {
       return cancelled();

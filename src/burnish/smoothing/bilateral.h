@@ -6,7 +6,7 @@
 namespace burnish {
 
 struct BilateralParams {
-  int iterations = 5;
+  int iterations = 3;
   double relative_width = 1;  ///< sigma_c in mean edge lengths
   BoundaryRule boundary = BoundaryRule::fixed;
 
@@ -17,10 +17,11 @@ struct BilateralParams {
 /// (the area-mean of its triangles') by
 ///     sum_q exp(-t^2 / (2 sigma_c^2)) exp(-h^2 / (2 sigma_s^2)) h / sum_q exp(...) exp(...),
 ///     t = |q - p|, h = <n, q - p>,
-/// over the vertices q != p that are connected to it within 2 sigma_c. sigma_c is relative_width
-/// mean edge lengths; sigma_s, which the paper takes from a part that the user picks, is the
-/// standard deviation of h over each vertex's own neighbours. Neighbourhoods are those of the mesh
-/// as it came. Jacobi.
+/// over the vertices q that are connected to it within 2 sigma_c, itself among them. sigma_c is
+/// relative_width mean edge lengths. sigma_s, which the paper takes from a flat part that the user
+/// picks, is the median over the vertices of the standard deviation of h; it and the neighbourhoods
+/// are those of the mesh as it came. Where sigma_s is 0, most of the mesh being flat, all stays.
+/// Jacobi.
 ///
 /// What to expect: light noise goes with little shrinkage and hardly any drift; from a noise of
 /// about a third of an edge on the normals are too noisy to move along. Boundary: fixed: stays;
