@@ -110,7 +110,8 @@ const Schema<BilateralParams>& BilateralParams::schema() {
 }
 
 Result<SmoothingReport> smooth_bilateral(TriangleMesh& mesh, const BilateralParams& params,
-                                         const Context& context) {
+                                         const Context& caller) {
+  const Context context = for_passes_over(mesh.triangles.size(), caller);
   if (auto valid = BilateralParams::schema().check(params); !valid) return valid.error();
   if (auto sound = check(mesh); !sound) return sound.error();
   const Result<std::vector<float>> follows = smoothing_weights(mesh);

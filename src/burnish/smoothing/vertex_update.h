@@ -70,6 +70,7 @@ class VertexUpdate {
   const TriangleMesh& mesh_;
   const Adjacency& faces_of_vertices_;
   double equalizing_;
+  Adjacency rings_;             ///< where equalizing
   std::vector<float> follows_;  ///< of every vertex its share of each move
   std::vector<bool> on_boundary_, stays_;
   Adjacency along_boundary_;  ///< the neighbours there, under that rule only
