@@ -102,7 +102,7 @@ const Schema<BilateralParams>& BilateralParams::schema() {
   static const auto schema =
       Schema<P>()
           .integer("iterations", &P::iterations, between(0, 10000), "number of passes")
-          .real("relative_width", &P::relative_width, {.low = 0.1, .high = 10},
+          .real("relative_width", &P::relative_width, {.low = 0.1, .high = 5},
                 "width of the distance weight in mean edge lengths")
           .choice("boundary", &P::boundary, boundary_rule_names(),
                   "what vertices on an open boundary do");

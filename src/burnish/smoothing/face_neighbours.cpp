@@ -86,7 +86,9 @@ bool connected_within(const Context& context, float radius, const std::vector<Qu
           if (seen_from[j] == own) continue;
           seen_from[j] = own;
           const Quad offset = points[j] - points[i];
-          if (dot3(offset, offset) < limit) items.push_back(j);
+          if (!(dot3(offset, offset) < limit)) continue;
+          items.push_back(j);
+          if (items.size() - begin == kMostInABall) return sort_new(items, begin);
         }
       }
       sort_new(items, begin);

@@ -23,10 +23,13 @@ inline constexpr std::size_t kMostFacesOfACorner = 64;
                                      const Adjacency& faces_of_vertices,
                                      const Adjacency& edge_neighbours, Adjacency& neighbours);
 
+/// No ball takes up more than this: some meshes have no end of slivers in one place.
+inline constexpr std::size_t kMostInABall = 512;
+
 /// Per point itself and all that are nearer to it than `radius`, as far as one comes to them from
 /// neighbour to neighbour without leaving this ball: the other side of a thin wall is not among
-/// them. Points may be the centroids of faces or vertices. O(neighbours of what is in the ball).
-/// False where cancelled.
+/// them. Points may be the centroids of faces or vertices. Where there are more than kMostInABall,
+/// the first to be met. O(neighbours of what is in the ball). False where cancelled.
 [[nodiscard]] bool connected_within(const Context& context, float radius,
                                     const std::vector<Quad>& points, const Adjacency& neighbours,
                                     Adjacency& balls);
