@@ -9,8 +9,8 @@
 // Not part of the library's interface.
 namespace burnish {
 
-/// exp(-x) of four numbers at once, x >= 0, to 2e-7 of the value; 0 beyond x = 87. The same bits on
-/// every machine, which the standard library's need not be.
+/// exp(-x) of four numbers at once, x >= 0, to (3 + x) 1e-7 of the value; 0 from x = 87 on. The
+/// same bits on every machine, which the standard library's need not be.
 inline Quad exp_of_negative(const Quad& x) {
   typedef std::int32_t Whole __attribute__((vector_size(16)));
   constexpr float kLog2E = 1.44269504f;
