@@ -5,8 +5,10 @@
 #include "burnish/points/remove_outliers.h"
 #include "burnish/repair/small_components.h"
 #include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/laplacian.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
+#include "burnish/smoothing/taubin.h"
 #include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/fan_cloud_mesh.h"
 #include "burnish/triangulation/global.h"
@@ -71,6 +73,12 @@ std::span<const SmoothOperation> smooth_operations() {
           "gaussian", smooth_gaussian,
           "Mean of the one-ring and the vertex itself, weighted by a Gaussian of the distance.",
           "ozbay_cinar"),
+      edit_operation("laplacian", smooth_laplacian,
+                     "Part of the way to the mean of the one-ring, by equal or cotangent weights.",
+                     "desbrun_1999"),
+      edit_operation("taubin", smooth_taubin,
+                     "A step to the mean of the one-ring and one back: low-pass, no shrinkage.",
+                     "taubin_1995"),
   };
   return list;
 }
