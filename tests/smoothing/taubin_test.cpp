@@ -38,25 +38,11 @@ TEST(Taubin, IsAsThePapersFormulaOnTheBunny) {
   BURNISH_EXPECT_AS_PLAIN_ON_THE_BUNNY(smooth, plain_taubin);
 }
 
-/// A closed polygon of n vertices, as the boundary of a disc; its waves are the eigenvectors of the
-/// umbrella operator along it, with the frequencies 1 - cos(2 pi wave / n).
-TriangleMesh disc_with_wave(std::uint32_t n, std::uint32_t wave) {
-  TriangleMesh mesh;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const double angle = 2 * std::numbers::pi * i / n;
-    mesh.positions.push_back(
-        Vec3f(Vec3d{std::cos(angle), std::sin(angle), 0.1 * std::cos(wave * angle)}));
-    mesh.triangles.push_back({i, (i + 1) % n, n});
-  }
-  mesh.positions.push_back({});
-  return mesh;
-}
-
 TEST(Taubin, MultipliesEachWaveByItsTransferFunction) {
   constexpr std::uint32_t n = 60;
   const double lambda = 0.6, mu = -0.65;
   for (const std::uint32_t wave : {1u, 3u, 10u, 20u, 30u}) {
-    TriangleMesh mesh = disc_with_wave(n, wave);
+    TriangleMesh mesh = test::disc_with_wave(n, wave);
     ASSERT_TRUE(smooth_taubin(
         mesh,
         {.lambda = lambda, .mu = mu, .iterations = 4, .boundary = BoundaryRule::along_boundary}));
@@ -77,16 +63,6 @@ TEST(Taubin, APassBandStandsForMu) {
   EXPECT_EQ(by_mu.positions, by_band.positions);
 }
 
-double volume(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    sum +=
-        dot(Vec3d(mesh.positions[a]), cross(Vec3d(mesh.positions[b]), Vec3d(mesh.positions[c]))) /
-        6;
-  }
-  return sum;
-}
-
 TEST(Taubin, KeepsTheVolumeOfASphere) {
   // The mean of a ring of edges e lies e^2 / (2 R) below its vertex: the positions are a wave of
   // k = e^2 / (2 R^2). An iteration multiplies it by 1 - (lambda + mu) k - ..., the volume by the
@@ -95,12 +71,12 @@ TEST(Taubin, KeepsTheVolumeOfASphere) {
   TriangleMesh mesh = make_sphere(1, 4);
   const double edge = std::sqrt(4 * std::numbers::pi / 5120 * 4 / std::sqrt(3.));
   const double k = edge * edge / 2, growth = 3 * 10 * 0.03 * k;
-  const double before = volume(mesh);
+  const double before = test::volume(mesh);
   ASSERT_TRUE(smooth_taubin(mesh));
-  EXPECT_NEAR(volume(mesh) / before - 1, growth, 0.06 * growth);
+  EXPECT_NEAR(test::volume(mesh) / before - 1, growth, 0.06 * growth);
   TriangleMesh shrunk = make_sphere(1, 4);
   ASSERT_TRUE(smooth_laplacian(shrunk, {.lambda = 0.5, .iterations = 20}));
-  EXPECT_LT(volume(shrunk) / before - 1, -10 * growth);
+  EXPECT_LT(test::volume(shrunk) / before - 1, -10 * growth);
 }
 
 TEST(Taubin, RefusesToReturnWhatHasGrownBeyondNumbers) {

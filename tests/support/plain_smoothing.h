@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -66,6 +68,31 @@ inline double diagonal(const TriangleMesh& mesh) {
     }
   }
   return norm(high - low);
+}
+
+/// A closed polygon of n vertices, as the boundary of a disc; its waves are the eigenvectors of the
+/// umbrella operator along it, with the frequencies 1 - cos(2 pi wave / n).
+inline TriangleMesh disc_with_wave(std::uint32_t n, std::uint32_t wave) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    mesh.positions.push_back(
+        Vec3f(Vec3d{std::cos(angle), std::sin(angle), 0.1 * std::cos(wave * angle)}));
+    mesh.triangles.push_back({i, (i + 1) % n, n});
+  }
+  mesh.positions.push_back({});
+  return mesh;
+}
+
+/// Of a closed mesh, m^3.
+inline double volume(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    sum +=
+        dot(Vec3d(mesh.positions[a]), cross(Vec3d(mesh.positions[b]), Vec3d(mesh.positions[c]))) /
+        6;
+  }
+  return sum;
 }
 
 /// `smooth(mesh, rule)` must move each vertex of `before` to where `plain(mesh, rule)` says, within

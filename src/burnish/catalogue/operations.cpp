@@ -5,10 +5,12 @@
 #include "burnish/points/remove_outliers.h"
 #include "burnish/repair/small_components.h"
 #include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/humphrey.h"
 #include "burnish/smoothing/laplacian.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
 #include "burnish/smoothing/taubin.h"
+#include "burnish/smoothing/windowed_sinc.h"
 #include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/fan_cloud_mesh.h"
 #include "burnish/triangulation/global.h"
@@ -79,6 +81,12 @@ std::span<const SmoothOperation> smooth_operations() {
       edit_operation("taubin", smooth_taubin,
                      "A step to the mean of the one-ring and one back: low-pass, no shrinkage.",
                      "taubin_1995"),
+      edit_operation("windowed_sinc", smooth_windowed_sinc,
+                     "A low-pass filter with a sharp cut-off; no shrinkage.",
+                     "taubin_zhang_golub_1996"),
+      edit_operation("humphrey", smooth_humphrey,
+                     "Mean of the one-ring, then pushed back by what the one-ring moved (HC).",
+                     "vollmer_1999"),
   };
   return list;
 }
