@@ -4,6 +4,7 @@
 #include "burnish/points/remove_flying_pixels.h"
 #include "burnish/points/remove_outliers.h"
 #include "burnish/repair/small_components.h"
+#include "burnish/smoothing/equalize.h"
 #include "burnish/smoothing/gaussian.h"
 #include "burnish/smoothing/humphrey.h"
 #include "burnish/smoothing/laplacian.h"
@@ -87,6 +88,8 @@ std::span<const SmoothOperation> smooth_operations() {
       edit_operation("humphrey", smooth_humphrey,
                      "Mean of the one-ring, then pushed back by what the one-ring moved (HC).",
                      "vollmer_1999"),
+      edit_operation("equalize", smooth_equalize,
+                     "Evens the distances to neighbours within the surface; smooths nothing.", ""),
   };
   return list;
 }
