@@ -7,6 +7,7 @@
 #include "burnish/smoothing/equalize.h"
 #include "burnish/smoothing/gaussian.h"
 #include "burnish/smoothing/humphrey.h"
+#include "burnish/smoothing/implicit.h"
 #include "burnish/smoothing/laplacian.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
@@ -88,6 +89,9 @@ std::span<const SmoothOperation> smooth_operations() {
       edit_operation("humphrey", smooth_humphrey,
                      "Mean of the one-ring, then pushed back by what the one-ring moved (HC).",
                      "vollmer_1999"),
+      edit_operation("implicit", smooth_implicit,
+                     "Curvature flow in steps of any length, by solving a system of equations.",
+                     "desbrun_1999"),
       edit_operation("equalize", smooth_equalize,
                      "Evens the distances to neighbours within the surface; smooths nothing.", ""),
   };
