@@ -29,13 +29,16 @@ using Weights = std::vector<std::map<std::uint32_t, double>>;
 void relax(std::vector<Vec3d>& p, const std::vector<double>& mass, const Weights& stiffness,
            const std::vector<bool>& free, double time) {
   const std::vector<Vec3d> old = p;
-  for (double change = 1; change > 1e-11;) {
+  std::vector<std::vector<std::pair<std::uint32_t, double>>> rows(p.size());
+  for (std::size_t v = 0; v < p.size(); ++v)
+    rows[v].assign(stiffness[v].begin(), stiffness[v].end());
+  for (double change = 1; change > 1e-10;) {
     change = 0;
     for (std::size_t v = 0; v < p.size(); ++v) {
       if (!free[v]) continue;
       Vec3d sum = mass[v] * old[v];
       double total = mass[v];
-      for (const auto& [w, weight] : stiffness[v]) {
+      for (const auto& [w, weight] : rows[v]) {
         sum += time * weight * p[w];
         total += time * weight;
       }

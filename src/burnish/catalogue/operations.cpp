@@ -8,6 +8,7 @@
 #include "burnish/smoothing/gaussian.h"
 #include "burnish/smoothing/humphrey.h"
 #include "burnish/smoothing/implicit.h"
+#include "burnish/smoothing/l0.h"
 #include "burnish/smoothing/laplacian.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
@@ -92,6 +93,9 @@ std::span<const SmoothOperation> smooth_operations() {
       edit_operation("implicit", smooth_implicit,
                      "Curvature flow in steps of any length, by solving a system of equations.",
                      "desbrun_1999"),
+      edit_operation("l0", smooth_l0,
+                     "As few bent edges as possible: flattens noisy facets, keeps their edges.",
+                     "he_schaefer_2013"),
       edit_operation("equalize", smooth_equalize,
                      "Evens the distances to neighbours within the surface; smooths nothing.", ""),
   };
