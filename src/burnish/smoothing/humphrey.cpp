@@ -26,15 +26,15 @@ Result<SmoothingReport> smooth_humphrey(TriangleMesh& mesh, const HumphreyParams
   std::vector<Vec3d> steps(positions.size()), excess = steps, spread = steps;
   for (int pass = 0; pass < params.iterations; ++pass) {
     const Context share = part_of_pass(context, pass, params.iterations, work->rings);
-    if (!ring_steps(share.part(0, 0.5), *work, positions, steps)) return cancelled();
+    if (!ring_steps(share.part(0, 0.5), work->rings, positions, steps)) return cancelled();
     for (std::size_t v = 0; v < positions.size(); ++v) {
       excess[v] = steps[v] + params.alpha * (positions[v] - first[v]);
     }
-    if (!ring_steps(share.part(0.5, 1), *work, excess, spread)) return cancelled();
+    if (!ring_steps(share.part(0.5, 1), work->rings, excess, spread)) return cancelled();
     for (std::size_t v = 0; v < positions.size(); ++v) {
       if (work->rings.row(v).empty()) continue;
-      const Vec3d back = work->follow(v) * excess[v] + (1 - params.beta) * spread[v];
-      positions[v] += steps[v] - back;
+      const Vec3d back = excess[v] + (1 - params.beta) * spread[v];
+      positions[v] += work->follow(v) * (steps[v] - back);
     }
   }
   return commit_positions(mesh, positions, params.iterations, context);

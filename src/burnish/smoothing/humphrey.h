@@ -23,7 +23,8 @@ struct HumphreyParams {
 /// edges long are touched, so that it hardly shrinks. It needs more passes than smooth_taubin
 /// against noise of the same size, and leaves longer waves of it. Blurs features.
 ///
-/// Jacobi. A vertex that stays (on the boundary, or pinned) has b = 0. boundary: along_boundary
+/// Jacobi. A vertex that stays (on the boundary, or pinned) has b = 0; a smoothing weight takes
+/// that share of the move of each whole pass. boundary: along_boundary
 /// smooths boundary loops as curves. Normals that are there are computed anew, all else stays, also
 /// sigma: the push back undoes part of the averaging, by how much depends on the spectrum of the
 /// noise; to claim nothing is on the safe side. O(iterations * #T). Errors: invalid_argument,

@@ -82,7 +82,7 @@ class Flow {
     std::vector<bool> on_curve(count, false), inner(count), along(count);
     if (boundary == BoundaryRule::along_boundary) on_curve = boundary_vertices(mesh);
     for (std::size_t v = 0; v < count; ++v) {
-      const bool moves = !work.rings.row(v).empty() && work.follow(v) > 0;
+      const bool moves = !work.rings.row(v).empty();
       inner[v] = moves && !on_curve[v];
       along[v] = moves && on_curve[v];
     }

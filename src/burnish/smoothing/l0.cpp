@@ -117,7 +117,7 @@ class Problem {
  public:
   explicit Problem(const RingMesh& work) : first_(work.positions), unknown_(first_.size(), kNone) {
     for (std::uint32_t v = 0; v < first_.size(); ++v) {
-      if (work.rings.row(v).empty() || work.follow(v) == 0) continue;
+      if (work.rings.row(v).empty()) continue;
       unknown_[v] = static_cast<std::uint32_t>(free_.size());
       free_.push_back(v);
     }

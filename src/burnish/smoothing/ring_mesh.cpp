@@ -26,13 +26,28 @@ Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
   return {std::move(offsets), std::move(items)};
 }
 
+/// Without the neighbours of vertices that are pinned.
+Adjacency without_pinned(const Adjacency& rings, const std::vector<float>& follows) {
+  std::vector<std::uint32_t> offsets{0}, items;
+  offsets.reserve(rings.offsets().size());
+  items.reserve(rings.items().size());
+  for (std::size_t v = 0; v < rings.size(); ++v) {
+    const auto row = rings.row(v);
+    if (follows[v] > 0) items.insert(items.end(), row.begin(), row.end());
+    offsets.push_back(static_cast<std::uint32_t>(items.size()));
+  }
+  return {std::move(offsets), std::move(items)};
+}
+
 }  // namespace
 
 Result<RingMesh> ring_mesh(const TriangleMesh& mesh, BoundaryRule boundary) {
   if (auto sound = check(mesh); !sound) return sound.error();
   Result<std::vector<float>> follows = smoothing_weights(mesh);
   if (!follows) return follows.error();
-  return RingMesh{smoothing_rings(mesh, boundary), std::move(*follows), in_double(mesh.positions)};
+  Adjacency rings = smoothing_rings(mesh, boundary);
+  if (!follows->empty()) rings = without_pinned(rings, *follows);
+  return RingMesh{std::move(rings), std::move(*follows), in_double(mesh.positions)};
 }
 
 std::vector<Vec3d> in_double(const std::vector<Vec3f>& positions) {
@@ -64,15 +79,14 @@ Context part_of_pass(const Context& context, int pass, int passes, const Adjacen
   return share;
 }
 
-bool ring_steps(const Context& context, const RingMesh& mesh, const std::vector<Vec3d>& values,
+bool ring_steps(const Context& context, const Adjacency& rings, const std::vector<Vec3d>& values,
                 std::vector<Vec3d>& steps) {
   return parallel_for(context, values.size(), [&](IndexRange range) {
     for (std::size_t v = range.begin; v < range.end; ++v) {
-      const auto row = mesh.rings.row(v);
+      const auto row = rings.row(v);
       Vec3d sum;
       for (const std::uint32_t w : row) sum += values[w];
-      steps[v] = row.empty() ? Vec3d{}
-                             : mesh.follow(v) * (sum / static_cast<double>(row.size()) - values[v]);
+      steps[v] = row.empty() ? Vec3d{} : sum / static_cast<double>(row.size()) - values[v];
     }
   });
 }

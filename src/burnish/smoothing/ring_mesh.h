@@ -15,7 +15,7 @@ namespace burnish {
 
 /// A mesh as these smoothings work on it: in double from the first pass to the last.
 struct RingMesh {
-  Adjacency rings;             ///< the neighbours of each vertex; none where it is to stay
+  Adjacency rings;             ///< neighbours of each vertex; none where it stays or is pinned
   std::vector<float> follows;  ///< what smoothing_weights.h says; empty: 1 for all
   std::vector<Vec3d> positions;
 
@@ -34,10 +34,10 @@ std::size_t longest_row(const Adjacency& rows);
 /// all of them together are too little work for more.
 Context part_of_pass(const Context& context, int pass, int passes, const Adjacency& rings);
 
-/// The umbrella operator (Taubin 1995, with equal weights): steps[v] is the mean of `values`
-/// over the ring of v less values[v], times follow(v); 0 for vertices without a ring. Returns false
-/// where the context was cancelled.
-[[nodiscard]] bool ring_steps(const Context& context, const RingMesh& mesh,
+/// The umbrella operator (Taubin 1995, with equal weights): steps[v] is the mean of `values` over
+/// the ring of v less values[v]; 0 for vertices without a ring. Returns false where the context was
+/// cancelled.
+[[nodiscard]] bool ring_steps(const Context& context, const Adjacency& rings,
                               const std::vector<Vec3d>& values, std::vector<Vec3d>& steps);
 
 /// The end of a smoothing: puts `positions` into the mesh, and normals where there were some.

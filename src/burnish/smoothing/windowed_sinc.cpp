@@ -80,10 +80,10 @@ Result<SmoothingReport> smooth_windowed_sinc(TriangleMesh& mesh, const WindowedS
   for (Vec3d& p : filtered) p *= factor[0];
   for (int n = 1; n <= params.iterations; ++n) {
     const Context share = part_of_pass(context, n - 1, params.iterations, work->rings);
-    if (!ring_steps(share, *work, current, steps)) return cancelled();
+    if (!ring_steps(share, work->rings, current, steps)) return cancelled();
     for (std::size_t v = 0; v < current.size(); ++v) {
-      const Vec3d next =
-          n == 1 ? current[v] + steps[v] / 2 : 2. * current[v] + steps[v] - previous[v];
+      const Vec3d step = work->follow(v) * steps[v];
+      const Vec3d next = n == 1 ? current[v] + step / 2 : 2. * current[v] + step - previous[v];
       previous[v] = current[v];
       current[v] = next;
       filtered[v] += factor[static_cast<std::size_t>(n)] * next;
@@ -91,7 +91,7 @@ Result<SmoothingReport> smooth_windowed_sinc(TriangleMesh& mesh, const WindowedS
   }
   for (std::size_t v = 0; v < filtered.size(); ++v) {
     // These stay to the last bit, which the sum above would round.
-    if (work->rings.row(v).empty() || work->follow(v) == 0) filtered[v] = work->positions[v];
+    if (work->rings.row(v).empty()) filtered[v] = work->positions[v];
   }
   return commit_positions(mesh, filtered, params.iterations, context);
 }
