@@ -206,6 +206,26 @@ TEST(Program, SmoothsInPhasesOneAfterAnother) {
   }
 }
 
+TEST(Program, MeasuresWhatIsLeftOfNoiseWhereTheTrianglesAreThoseOfTheTruth) {
+  const TemporaryFolder folder;
+  const TriangleMesh truth = make_box({1, 1, 1}, 4);
+  TriangleMesh half = truth;
+  for (Vec3f& p : half.positions) p = 0.5f * p;
+  ASSERT_TRUE(write_mesh(folder / "truth.ply", truth));
+  ASSERT_TRUE(write_mesh(folder / "half.ply", half));
+  ASSERT_TRUE(write_mesh(folder / "other.ply", make_box({1, 1, 1}, 5)));
+  const auto measured = [&](const char* mesh) {
+    return burnish({"measure", folder / mesh, "--truth", folder / "truth.ply", "--json"});
+  };
+  const Outcome same = measured("half.ply"), other = measured("other.ply");
+  ASSERT_EQ(same.status, 0) << same.err;
+  ASSERT_EQ(other.status, 0) << other.err;
+  EXPECT_NE(same.out.find("\"volume_change\": -0.875"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("\"vertex_error_m\": 0.25"), std::string::npos) << same.out;
+  EXPECT_NE(other.out.find("\"coverage\""), std::string::npos) << other.out;
+  EXPECT_EQ(other.out.find("\"denoising\""), std::string::npos) << other.out;
+}
+
 TEST(Program, SeveralScansWithoutPosesAreRefusedWithWhatToGive) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "a.ply", make_sphere()));

@@ -127,7 +127,19 @@ TEST(CompareDenoised, RefusesMeshesThatDoNotCorrespond) {
     EXPECT_NE(error.error().message.find(says), std::string::npos) << error.error().message;
   }
   EXPECT_TRUE(correspond(truth, truth));
-  EXPECT_EQ(compare_denoised(TriangleMesh{}, TriangleMesh{}).error().code, ErrorCode::bad_geometry);
+}
+
+TEST(CompareDenoised, SurfacesWithoutAreaAreRefused) {
+  const TriangleMesh box = make_box();
+  TriangleMesh point = box;
+  for (Vec3f& p : point.positions) p = {};
+  for (const auto& [mesh, truth, where] :
+       {std::tuple(point, box, "mesh"), std::tuple(box, point, "truth")}) {
+    const auto error = compare_denoised(mesh, truth);
+    ASSERT_FALSE(error);
+    EXPECT_EQ(error.error().code, ErrorCode::bad_geometry);
+    EXPECT_EQ(error.error().where, where);
+  }
 }
 
 TEST(CompareDenoised, HeedsCancellation) {
@@ -136,7 +148,9 @@ TEST(CompareDenoised, HeedsCancellation) {
   Context context;
   context.stop = stop.get_token();
   const TriangleMesh mesh = make_sphere();
-  EXPECT_EQ(compare_denoised(mesh, mesh, context).error().code, ErrorCode::cancelled);
+  const auto error = compare_denoised(mesh, mesh, context);
+  ASSERT_FALSE(error);
+  EXPECT_EQ(error.error().code, ErrorCode::cancelled);
 }
 
 /// The angles that a plain evaluation of the files' own decimal numbers in double gives. The
