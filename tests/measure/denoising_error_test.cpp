@@ -129,6 +129,59 @@ TEST(CompareDenoised, RefusesMeshesThatDoNotCorrespond) {
   EXPECT_TRUE(correspond(truth, truth));
 }
 
+/// A finer grid turned by 30 degrees about the edge x = 0 that it shares with the truth: every
+/// centroid is nearest to a point of the truth at 30 degrees.
+TEST(CompareToNearest, NeedsNoCorrespondence) {
+  const TriangleMesh truth = make_grid(4, 4, 0.25);
+  TriangleMesh mesh = make_grid(7, 7, 1.0 / 7);
+  for (Vec3f& p : mesh.positions) {
+    p = Vec3f(Vec3d{p.x * std::cos(30 * kDegree), p.y, p.x * std::sin(30 * kDegree)});
+  }
+  const auto error = compare_to_nearest(mesh, truth);
+  ASSERT_TRUE(error) << error.error().text();
+  EXPECT_EQ(error->triangles, 98u);
+  EXPECT_NEAR(error->normal_error, 30 * kDegree, 1e-6);
+  EXPECT_EQ(error->flipped_triangles, 0u);
+  // Heights x / 2 at x = i / 7, weighted as a trapezoid sum of (x / 2)^2 weighs them, to which the
+  // corners of the diagonals add nothing: each column's vertices hold as much area as its strips.
+  double squares = 0;
+  for (int i = 0; i <= 7; ++i) squares += (i == 0 || i == 7 ? 0.5 : 1) / 7 * i * i / (4.0 * 49);
+  EXPECT_NEAR(error->vertex_error, std::sqrt(squares), 1e-6);
+  const double edge = (112.0 / 7 + 49 * std::numbers::sqrt2 / 7) / 161;
+  EXPECT_NEAR(error->vertex_error_in_edges, error->vertex_error / edge, 1e-3);
+}
+
+TEST(CompareToNearest, AgreesWithTheTrueCorrespondenceWhereMovesAreSmall) {
+  const TriangleMesh truth = make_sphere(1, 3);
+  TriangleMesh mesh = truth;
+  for (Vec3f& p : mesh.positions) p = 1.01f * p;
+  const auto same = compare_denoised(mesh, truth), nearest = compare_to_nearest(mesh, truth);
+  ASSERT_TRUE(same && nearest);
+  EXPECT_EQ(nearest->normal_error, same->normal_error);
+  EXPECT_EQ(nearest->vertex_error, same->vertex_error);
+  EXPECT_EQ(nearest->volume_change, same->volume_change);
+  for (Triangle& t : mesh.triangles) std::swap(t[0], t[1]);
+  EXPECT_EQ(compare_to_nearest(mesh, truth)->flipped_triangles, mesh.triangles.size());
+}
+
+TEST(CompareToNearest, FramesAndCancellationAreHeeded) {
+  const TriangleMesh truth = make_box({1, 1, 1}, 3);
+  TriangleMesh mesh = truth;
+  mesh.frame.origin = {1000, 0, 0};
+  for (Vec3f& p : mesh.positions) p.x -= 1000;
+  const auto error = compare_to_nearest(mesh, truth);
+  ASSERT_TRUE(error);
+  EXPECT_LT(error->normal_error, 1e-3) << "float rounds 1000.5 to 3e-5";
+  EXPECT_LT(error->vertex_error, 1e-4);
+  std::stop_source stop;
+  stop.request_stop();
+  Context context;
+  context.stop = stop.get_token();
+  const auto stopped = compare_to_nearest(mesh, truth, context);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
+}
+
 TEST(CompareDenoised, SurfacesWithoutAreaAreRefused) {
   const TriangleMesh box = make_box();
   TriangleMesh point = box;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "burnish/base/parallel.h"
@@ -39,10 +40,12 @@ Result<void> check_correspondence(const TriangleMesh& mesh, const TriangleMesh& 
                             (*theirs)[0], (*theirs)[1], (*theirs)[2]));
 }
 
-void measure_normals(const TriangleMesh& mesh, const TriangleMesh& truth, DenoisingError& error) {
+/// To triangle t of the mesh corresponds corresponding[t] of the truth.
+void measure_normals(const TriangleMesh& mesh, const TriangleMesh& truth,
+                     const std::vector<std::uint32_t>& corresponding, DenoisingError& error) {
   double sum = 0;
-  for (std::size_t t = 0; t < truth.triangles.size(); ++t) {
-    const Vec3d right = area_vector(truth, t), found = area_vector(mesh, t);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3d right = area_vector(truth, corresponding[t]), found = area_vector(mesh, t);
     if (squared_norm(right) == 0) continue;
     const bool collapsed = squared_norm(found) == 0;
     const double angle = collapsed ? kRightAngle : angle_between(found, right);
@@ -74,9 +77,10 @@ double diagonal(const TriangleMesh& mesh) {
   return norm(Vec3d(high) - Vec3d(low));
 }
 
-bool measure_distances(const TriangleMesh& mesh, const TriangleMesh& truth, DenoisingError& error,
+/// `edge` is the length in which the distances are told besides.
+bool measure_distances(const TriangleMesh& mesh, const TriangleMesh& truth,
+                       const ClosestPoint& on_truth, double edge, DenoisingError& error,
                        const Context& context) {
-  const ClosestPoint on_truth(truth, context);
   const Vec3d shift = mesh.frame.origin - truth.frame.origin;
   const std::vector<double> weights = areas_around_vertices(mesh);
   std::vector<double> distances(weights.size());
@@ -95,9 +99,37 @@ bool measure_distances(const TriangleMesh& mesh, const TriangleMesh& truth, Deno
     weight += weights[v];
   }
   error.vertex_error = std::sqrt(squares / weight);
-  error.vertex_error_in_edges = error.vertex_error / mean_edge_length(truth);
+  error.vertex_error_in_edges = error.vertex_error / edge;
   error.vertex_error_permille = 1000 * error.vertex_error / diagonal(truth);
   return true;
+}
+
+Result<void> measure_volumes(const TriangleMesh& mesh, const TriangleMesh& truth,
+                             DenoisingError& error) {
+  const Result<AreaAndVolume> size = area_and_volume(mesh), true_size = area_and_volume(truth);
+  if (!size) return size.error();
+  if (!true_size) return true_size.error();
+  if (size->volume && true_size->volume && *true_size->volume != 0) {
+    error.volume_change = *size->volume / *true_size->volume - 1;
+  }
+  return {};
+}
+
+/// The triangle of the truth that is nearest to the centroid of each one of the mesh.
+bool find_nearest(const TriangleMesh& mesh, const TriangleMesh& truth, const ClosestPoint& on_truth,
+                  std::vector<std::uint32_t>& nearest, const Context& context) {
+  const Vec3d shift = mesh.frame.origin - truth.frame.origin;
+  nearest.resize(mesh.triangles.size());
+  return parallel_for(
+      context, nearest.size(),
+      [&](IndexRange range) {
+        for (std::size_t t = range.begin; t < range.end; ++t) {
+          Vec3d sum;
+          for (const std::uint32_t v : mesh.triangles[t]) sum += Vec3d(mesh.positions[v]);
+          nearest[t] = on_truth(sum / 3.0 + shift).triangle;
+        }
+      },
+      512);
 }
 
 }  // namespace
@@ -112,14 +144,31 @@ Result<DenoisingError> compare_denoised(const TriangleMesh& mesh, const Triangle
   if (auto sound = check_surface(truth, "truth"); !sound) return sound.error();
   if (auto alike = check_correspondence(mesh, truth); !alike) return alike.error();
   DenoisingError error;
-  measure_normals(mesh, truth, error);
-  const Result<AreaAndVolume> size = area_and_volume(mesh), true_size = area_and_volume(truth);
-  if (!size) return size.error();
-  if (!true_size) return true_size.error();
-  if (size->volume && true_size->volume && *true_size->volume != 0) {
-    error.volume_change = *size->volume / *true_size->volume - 1;
+  if (auto known = measure_volumes(mesh, truth, error); !known) return known.error();
+  std::vector<std::uint32_t> same(mesh.triangles.size());
+  std::iota(same.begin(), same.end(), 0);
+  measure_normals(mesh, truth, same, error);
+  const ClosestPoint on_truth(truth, context);
+  if (!measure_distances(mesh, truth, on_truth, mean_edge_length(truth), error, context)) {
+    return cancelled();
   }
-  if (!measure_distances(mesh, truth, error, context)) return cancelled();
+  return error;
+}
+
+Result<DenoisingError> compare_to_nearest(const TriangleMesh& mesh, const TriangleMesh& truth,
+                                          const Context& context) {
+  if (auto sound = check_surface(mesh, "mesh"); !sound) return sound.error();
+  if (auto sound = check_surface(truth, "truth"); !sound) return sound.error();
+  DenoisingError error;
+  if (auto known = measure_volumes(mesh, truth, error); !known) return known.error();
+  const ClosestPoint on_truth(truth, context);
+  std::vector<std::uint32_t> nearest;
+  if (!find_nearest(mesh, truth, on_truth, nearest, context.part(0, 0.6)) ||
+      !measure_distances(mesh, truth, on_truth, mean_edge_length(mesh), error,
+                         context.part(0.6, 1))) {
+    return cancelled();
+  }
+  measure_normals(mesh, truth, nearest, error);
   return error;
 }
 
