@@ -4,7 +4,9 @@
 #include "burnish/points/remove_flying_pixels.h"
 #include "burnish/points/remove_outliers.h"
 #include "burnish/repair/small_components.h"
+#include "burnish/smoothing/bilateral_normal.h"
 #include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/guided_normal.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
 #include "burnish/triangulation/delaunay.h"
@@ -71,6 +73,12 @@ std::span<const SmoothOperation> smooth_operations() {
           "gaussian", smooth_gaussian,
           "Mean of the one-ring and the vertex itself, weighted by a Gaussian of the distance.",
           "ozbay_cinar"),
+      edit_operation("bilateral_normal", smooth_bilateral_normal,
+                     "Face normals are averaged with like ones around them, vertices follow them.",
+                     "zheng_2011"),
+      edit_operation("guided_normal", smooth_guided_normal,
+                     "Face normals are filtered along the patches that are most of one piece.",
+                     "zhang_2015"),
   };
   return list;
 }
