@@ -19,10 +19,14 @@ TriangleMesh regular_shape(Random& random) {
       const double x = random.uniform(0.5, 1.5), y = random.uniform(0.5, 1.5);
       return make_box({x, y, random.uniform(0.5, 1.5)}, size);
     }
-    case 1: return make_sphere(1, 5);
-    case 2: return make_torus(1, random.uniform(0.2, 0.6), 3 * size, size);
-    case 3: return make_cylinder(random.uniform(0.4, 1), 2, 3 * size, size / 2);
-    default: return make_uv_sphere(1, 2 * size, size);
+    case 1:
+      return make_sphere(1, 5);
+    case 2:
+      return make_torus(1, random.uniform(0.2, 0.6), 3 * size, size);
+    case 3:
+      return make_cylinder(random.uniform(0.4, 1), 2, 3 * size, size / 2);
+    default:
+      return make_uv_sphere(1, 2 * size, size);
   }
 }
 
@@ -58,13 +62,16 @@ std::vector<double> blurred(int width, int height, double blur, Random& random) 
   }
   std::vector<double> white(static_cast<std::size_t>(width * height)), rows(white), out(white);
   for (double& w : white) w = random.normal();
-  const auto convolve = [&](const std::vector<double>& from, std::vector<double>& to, int dx, int dy) {
+  const auto convolve = [&](const std::vector<double>& from, std::vector<double>& to, int dx,
+                            int dy) {
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         double sum = 0;
         for (int i = -reach; i <= reach; ++i) {
-          const int u = std::clamp(x + i * dx, 0, width - 1), v = std::clamp(y + i * dy, 0, height - 1);
-          sum += kernel[static_cast<std::size_t>(i + reach)] * from[static_cast<std::size_t>(v * width + u)];
+          const int u = std::clamp(x + i * dx, 0, width - 1),
+                    v = std::clamp(y + i * dy, 0, height - 1);
+          sum += kernel[static_cast<std::size_t>(i + reach)] *
+                 from[static_cast<std::size_t>(v * width + u)];
         }
         to[static_cast<std::size_t>(y * width + x)] = sum / std::sqrt(squares);
       }

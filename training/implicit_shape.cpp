@@ -65,7 +65,8 @@ struct Torus : Solid {
 
 /// Waves on the surface of another solid.
 struct Wavy : Solid {
-  Wavy(SolidPtr solid, double height, const Vec3d& wave) : solid(solid), height(height), wave(wave) {}
+  Wavy(SolidPtr solid, double height, const Vec3d& wave)
+      : solid(solid), height(height), wave(wave) {}
   Value at(const Vec3d& p) const override {
     Value v = solid->at(p);
     v.f += height * std::sin(wave.x * p.x) * std::sin(wave.y * p.y) * std::sin(wave.z * p.z);
@@ -100,8 +101,12 @@ struct Outside : Solid {
   SolidPtr solid;
 };
 
-SolidPtr outside(SolidPtr a) { return std::make_shared<Outside>(a); }
-SolidPtr both(SolidPtr a, SolidPtr b, double blend) { return std::make_shared<Both>(a, b, blend); }
+SolidPtr outside(SolidPtr a) {
+  return std::make_shared<Outside>(a);
+}
+SolidPtr both(SolidPtr a, SolidPtr b, double blend) {
+  return std::make_shared<Both>(a, b, blend);
+}
 SolidPtr either(SolidPtr a, SolidPtr b, double blend) {
   return outside(both(outside(a), outside(b), blend));
 }
@@ -111,10 +116,12 @@ SolidPtr prism(Random& random) {
   const TangentFrame frame(random_direction(random));
   const int sides = 3 + static_cast<int>(random.below(6));
   const double turn = random.uniform(0, 6);
-  SolidPtr solid = std::make_shared<HalfSpace>(frame.normal, dot(frame.normal, centre) +
-                                                                 random.uniform(0.2, 0.7));
-  solid = both(solid, std::make_shared<HalfSpace>(
-                          -frame.normal, -dot(frame.normal, centre) + random.uniform(0.2, 0.7)), 0);
+  SolidPtr solid = std::make_shared<HalfSpace>(
+      frame.normal, dot(frame.normal, centre) + random.uniform(0.2, 0.7));
+  solid = both(solid,
+               std::make_shared<HalfSpace>(-frame.normal,
+                                           -dot(frame.normal, centre) + random.uniform(0.2, 0.7)),
+               0);
   for (int i = 0; i < sides; ++i) {
     const double angle = turn + 2 * std::numbers::pi * i / sides;
     const Vec3d side = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
@@ -138,8 +145,10 @@ SolidPtr round_bar(Random& random) {
 SolidPtr simple_solid(Random& random) {
   switch (random.below(5)) {
     case 0:
-    case 1: return prism(random);
-    case 2: return round_bar(random);
+    case 1:
+      return prism(random);
+    case 2:
+      return round_bar(random);
     case 3: {
       const Vec3d centre = random_point(random, 0.4);
       return std::make_shared<Sphere>(centre, random.uniform(0.2, 0.6));
@@ -231,11 +240,14 @@ class Thinned {
  private:
   static constexpr std::uint32_t kEnd = std::numeric_limits<std::uint32_t>::max();
   std::array<std::int64_t, 3> cell_of(const Vec3d& p) const {
-    const auto index = [this](double x) { return static_cast<std::int64_t>(std::floor(x / cell_)); };
+    const auto index = [this](double x) {
+      return static_cast<std::int64_t>(std::floor(x / cell_));
+    };
     return {index(p.x), index(p.y), index(p.z)};
   }
   std::size_t slot(const std::array<std::int64_t, 3>& c) const {
-    const auto mixed = static_cast<std::uint64_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
+    const auto mixed =
+        static_cast<std::uint64_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
     return mixed & (heads_.size() - 1);
   }
   double cell_;

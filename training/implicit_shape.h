@@ -13,7 +13,7 @@ namespace burnish::training {
 class Solid {
  public:
   struct Value {
-    double f;      ///< 0 on the surface
+    double f;       ///< 0 on the surface
     double crease;  ///< difference of the two surfaces that meet nearest by; 0 on a sharp edge
   };
   virtual ~Solid() = default;

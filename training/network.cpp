@@ -16,7 +16,9 @@ constexpr std::size_t kBatch = 512, kChunk = 128;
 constexpr float kRounding = 1e-3f;  // of the loss near 0
 constexpr std::size_t kWeights = sizeof(FusionNetwork) / sizeof(float);
 
-float* weights_of(FusionNetwork& network) { return reinterpret_cast<float*>(&network); }
+float* weights_of(FusionNetwork& network) {
+  return reinterpret_cast<float*>(&network);
+}
 
 void initialize(FusionNetwork& network, Random& random) {
   const auto fill = [&](std::span<float> weights, std::size_t in, std::size_t out, double gain) {
@@ -61,8 +63,7 @@ void backpropagate(const FusionNetwork& network, const float* features, const Ve
   for (std::size_t i = 0; i < H; ++i) {
     gradient.last[2 * i] += by_x * second[i];
     gradient.last[2 * i + 1] += by_y * second[i];
-    by_second[i] =
-        second[i] > 0 ? by_x * network.last[2 * i] + by_y * network.last[2 * i + 1] : 0;
+    by_second[i] = second[i] > 0 ? by_x * network.last[2 * i] + by_y * network.last[2 * i + 1] : 0;
   }
   gradient.last[2 * H] += by_x;
   gradient.last[2 * H + 1] += by_y;
@@ -140,10 +141,12 @@ double mean_error(const FusionNetwork& network, const Samples& samples) {
   for (std::size_t s = 0; s < samples.size(); ++s) {
     const std::span<const float, kFusionInputs> features(
         samples.features.data() + s * kFusionInputs, kFusionInputs);
-    const Vec3f n = fused_normal(network, features, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
-    sum += std::acos(std::clamp(dot(Vec3d(n), Vec3d(samples.truth[s])), -1.0, 1.0));
+    const FusionFrame frame{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+    const Vec3d n(fused_normal(network, features, frame).xyz());
+    sum += std::acos(std::clamp(dot(n, Vec3d(samples.truth[s])), -1.0, 1.0));
   }
-  return sum / static_cast<double>(std::max<std::size_t>(samples.size(), 1)) * 180 / std::numbers::pi;
+  return sum / static_cast<double>(std::max<std::size_t>(samples.size(), 1)) * 180 /
+         std::numbers::pi;
 }
 
 }  // namespace burnish::training

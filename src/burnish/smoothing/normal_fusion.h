@@ -26,12 +26,15 @@ inline constexpr std::size_t kFusionInputs =
     2 * (NormalCandidates::kCount + kFusionExtra) + kFusionScalars;
 inline constexpr std::size_t kFusionHidden = 64;
 
-/// How rough a mesh is: the median over its faces of the squared difference between the normals
-/// before and after some passes of the candidates' plain mean. Noise that is independent from
-/// vertex to vertex is gone after the first pass, what a depth camera makes is not.
+/// How rough a mesh is, from the squared differences between the normals of its faces before and
+/// after some passes of the candidates' plain mean.
 struct Roughness {
-  float fine = 0;    ///< none and one pass
-  float coarse = 0;  ///< two and eight passes
+  float fine = 0;    ///< median between none and one pass
+  float coarse = 0;  ///< median between two and eight passes
+  /// Noise that is independent from vertex to vertex is mostly gone after two passes, what a depth
+  /// camera makes is not: on the flattest quarter of the faces the differences fall slowly from one
+  /// number of passes to the next. (Where they rise, it is the shape that they measure.)
+  bool correlated = false;
 };
 
 Roughness roughness(const NormalCandidates& candidates);
@@ -39,9 +42,9 @@ Roughness roughness(const NormalCandidates& candidates);
 /// What is the same for all faces, or looked up by face.
 struct FusionInput {
   const NormalCandidates* candidates;
-  const Adjacency* around;             ///< vertex_neighbours
-  Roughness roughness;                 ///< of the mesh as it came
-  std::span<const Quad> first, last;   ///< #T: as it came, after the stage before; empty at first
+  const Adjacency* around;            ///< vertex_neighbours
+  Roughness roughness;                ///< of the mesh as it came
+  std::span<const Quad> first, last;  ///< #T: as it came, after the stage before; empty at first
 };
 
 /// Writes what the network sees of face `f`; returns its frame.
@@ -58,6 +61,6 @@ struct FusionNetwork {
 
 /// The normal that the network sees in the features: z + o_x x + o_y y, of unit length.
 Quad fused_normal(const FusionNetwork& network, std::span<const float, kFusionInputs> features,
-                   const FusionFrame& frame);
+                  const FusionFrame& frame);
 
 }  // namespace burnish
