@@ -4,6 +4,7 @@
 #include "burnish/points/remove_flying_pixels.h"
 #include "burnish/points/remove_outliers.h"
 #include "burnish/repair/small_components.h"
+#include "burnish/smoothing/bilateral.h"
 #include "burnish/smoothing/bilateral_normal.h"
 #include "burnish/smoothing/automatic.h"
 #include "burnish/smoothing/gaussian.h"
@@ -78,6 +79,9 @@ std::span<const SmoothOperation> smooth_operations() {
           "gaussian", smooth_gaussian,
           "Mean of the one-ring and the vertex itself, weighted by a Gaussian of the distance.",
           "ozbay_cinar"),
+      edit_operation("bilateral", smooth_bilateral,
+                     "Each vertex moves along its normal to near vertices of about its height.",
+                     "fleishman_2003"),
       edit_operation("bilateral_normal", smooth_bilateral_normal,
                      "Face normals are averaged with like ones around them, vertices follow them.",
                      "zheng_2011"),

@@ -26,7 +26,8 @@ const Schema<BilateralNormalParams>& BilateralNormalParams::schema() {
 
 Result<SmoothingReport> smooth_bilateral_normal(TriangleMesh& mesh,
                                                 const BilateralNormalParams& params,
-                                                const Context& context) {
+                                                const Context& caller) {
+  const Context context = for_passes_over(mesh.triangles.size(), caller);
   if (auto valid = BilateralNormalParams::schema().check(params); !valid) return valid.error();
   const Result<FaceWork> work = begin_face_work(mesh, context.part(0, 0.1));
   if (!work) return work.error();

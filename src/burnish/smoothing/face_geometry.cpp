@@ -4,41 +4,33 @@
 #include "burnish/core/edges.h"
 
 namespace burnish {
-namespace {
 
-Vec3d centroid(std::span<const Vec3d> positions, const Triangle& t) {
-  return (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.;
-}
-
-double mean_centroid_distance(const TriangleMesh& mesh, std::span<const Vec3d> positions,
-                              const Adjacency& edge_neighbours) {
+double mean_centroid_distance(const TriangleMesh& mesh, const Adjacency& edge_neighbours) {
+  const auto centroid = [&](std::size_t f) {
+    const auto [a, b, c] = mesh.triangles[f];
+    return (Vec3d(mesh.positions[a]) + Vec3d(mesh.positions[b]) + Vec3d(mesh.positions[c])) / 3.;
+  };
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t f = 0; f < edge_neighbours.size(); ++f) {
-    const Vec3d own = centroid(positions, mesh.triangles[f]);
     for (const std::uint32_t g : edge_neighbours.row(f)) {
       if (g < f) continue;
-      sum += norm(centroid(positions, mesh.triangles[g]) - own);
+      sum += norm(centroid(g) - centroid(f));
       ++count;
     }
   }
-  return count > 0 ? sum / static_cast<double>(count) : 0;
+  if (sum > 0) return sum / static_cast<double>(count);
+  const double edge = mean_edge_length(mesh);
+  return edge > 0 ? edge : 1;
 }
 
-}  // namespace
-
-FaceSurface face_surface(const TriangleMesh& mesh, const Adjacency& edge_neighbours) {
-  FaceSurface surface;
+FaceSurface face_surface(const TriangleMesh& mesh, double unit) {
   Vec3d mean;
   for (const Vec3f& p : mesh.positions) mean += Vec3d(p);
   if (!mesh.positions.empty()) mean = mean / static_cast<double>(mesh.positions.size());
+  FaceSurface surface{.positions = {}, .unit = unit};
   surface.positions.reserve(mesh.positions.size());
-  for (const Vec3f& p : mesh.positions) surface.positions.push_back(Vec3d(p) - mean);
-
-  surface.unit = mean_centroid_distance(mesh, surface.positions, edge_neighbours);
-  if (!(surface.unit > 0)) surface.unit = mean_edge_length(mesh);
-  if (!(surface.unit > 0)) surface.unit = 1;
-  for (Vec3d& p : surface.positions) p = p / surface.unit;
+  for (const Vec3f& p : mesh.positions) surface.positions.push_back((Vec3d(p) - mean) / unit);
   return surface;
 }
 

@@ -19,16 +19,20 @@ struct FaceGeometry {
   std::vector<Quad> centroids;  ///< w is 0
 };
 
-/// The positions of a mesh measured from their mean in a length of its own, the mean distance
-/// between the centroids of two faces that share an edge (the mean edge length where there are no
-/// such faces; 1 m where that is 0). Floats then hold areas and distances of meshes of any size,
-/// and what follows is the same for all sizes, to the last bit where they differ by a power of two.
+/// The positions of a mesh measured from their mean in a length of its own. Floats then hold areas
+/// and distances of meshes of any size, and what follows is the same for all sizes, to the last bit
+/// where they differ by a power of two.
 struct FaceSurface {
   std::vector<Vec3d> positions;
   double unit = 1;  ///< m
 };
 
-FaceSurface face_surface(const TriangleMesh& mesh, const Adjacency& edge_neighbours);
+/// `unit` > 0.
+FaceSurface face_surface(const TriangleMesh& mesh, double unit);
+
+/// The mean distance between the centroids of two faces that share an edge; the mean edge length
+/// where there are no such faces, and 1 where that is 0. m.
+double mean_centroid_distance(const TriangleMesh& mesh, const Adjacency& edge_neighbours);
 
 /// Computed in double; `faces` is made as long as there are triangles. O(#T). False where
 /// cancelled.

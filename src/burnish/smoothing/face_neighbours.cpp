@@ -69,26 +69,30 @@ bool vertex_neighbours(const Context& context, const TriangleMesh& mesh,
   return build_rows(context, mesh.triangles.size(), make_append, neighbours);
 }
 
-bool neighbours_within(const Context& context, float radius, const std::vector<Quad>& centroids,
-                       const Adjacency& vertex_neighbours, Adjacency& neighbours) {
+bool connected_within(const Context& context, float radius, const std::vector<Quad>& points,
+                      const Adjacency& neighbours, Adjacency& balls) {
+  constexpr std::uint32_t kNever = ~0u;
   const float limit = radius * radius;
   const auto make_append = [&] {
-    return [&](std::size_t f, auto& items) {
+    return [&, seen_from = std::vector<std::uint32_t>(points.size(), kNever)](std::size_t i,
+                                                                              auto& items) mutable {
       // Breadth first; what is found is its own queue.
       const std::size_t begin = items.size();
-      items.push_back(static_cast<std::uint32_t>(f));
+      const auto own = static_cast<std::uint32_t>(i);
+      seen_from[i] = own;
+      items.push_back(own);
       for (std::size_t next = begin; next < items.size(); ++next) {
-        for (const std::uint32_t g : vertex_neighbours.row(items[next])) {
-          const Quad offset = centroids[g] - centroids[f];
-          if (!(dot3(offset, offset) < limit)) continue;
-          const auto first = items.begin() + static_cast<std::ptrdiff_t>(begin);
-          if (std::find(first, items.end(), g) == items.end()) items.push_back(g);
+        for (const std::uint32_t j : neighbours.row(items[next])) {
+          if (seen_from[j] == own) continue;
+          seen_from[j] = own;
+          const Quad offset = points[j] - points[i];
+          if (dot3(offset, offset) < limit) items.push_back(j);
         }
       }
       sort_new(items, begin);
     };
   };
-  return build_rows(context, centroids.size(), make_append, neighbours);
+  return build_rows(context, points.size(), make_append, balls);
 }
 
 }  // namespace burnish

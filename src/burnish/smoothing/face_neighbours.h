@@ -23,11 +23,12 @@ inline constexpr std::size_t kMostFacesOfACorner = 64;
                                      const Adjacency& faces_of_vertices,
                                      const Adjacency& edge_neighbours, Adjacency& neighbours);
 
-/// Per face itself and all whose centroids are nearer to its own than `radius`, as far as one comes
-/// to them from vertex-neighbour to vertex-neighbour without leaving this ball: the other side of a
-/// thin wall is not among them. O(#T * faces in the ball). False where cancelled.
-[[nodiscard]] bool neighbours_within(const Context& context, float radius,
-                                     const std::vector<Quad>& centroids,
-                                     const Adjacency& vertex_neighbours, Adjacency& neighbours);
+/// Per point itself and all that are nearer to it than `radius`, as far as one comes to them from
+/// neighbour to neighbour without leaving this ball: the other side of a thin wall is not among
+/// them. Points may be the centroids of faces or vertices. O(neighbours of what is in the ball).
+/// False where cancelled.
+[[nodiscard]] bool connected_within(const Context& context, float radius,
+                                    const std::vector<Quad>& points, const Adjacency& neighbours,
+                                    Adjacency& balls);
 
 }  // namespace burnish

@@ -7,6 +7,13 @@
 
 namespace burnish {
 
+Context for_passes_over(std::size_t faces, const Context& context) {
+  constexpr std::size_t kFew = 32768;  // about 0.1 ms a pass
+  Context result = context;
+  if (faces <= kFew) result.threads = 1;
+  return result;
+}
+
 Result<FaceWork> begin_face_work(const TriangleMesh& mesh, const Context& context) {
   if (auto sound = check(mesh); !sound) return sound.error();
   Result<std::vector<float>> follows = smoothing_weights(mesh);
@@ -19,7 +26,7 @@ Result<FaceWork> begin_face_work(const TriangleMesh& mesh, const Context& contex
                          work.vertex_neighbours)) {
     return cancelled();
   }
-  work.surface = face_surface(mesh, work.edge_neighbours);
+  work.surface = face_surface(mesh, mean_centroid_distance(mesh, work.edge_neighbours));
   return work;
 }
 

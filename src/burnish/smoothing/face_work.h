@@ -21,6 +21,9 @@ struct FaceWork {
   FaceSurface surface;
 };
 
+/// The context with one thread where a pass over so many faces is done before others are awake.
+Context for_passes_over(std::size_t faces, const Context& context);
+
 /// Errors: bad_geometry, cancelled. O(#T).
 Result<FaceWork> begin_face_work(const TriangleMesh& mesh, const Context& context);
 

@@ -28,7 +28,8 @@ const Schema<GuidedNormalParams>& GuidedNormalParams::schema() {
 }
 
 Result<SmoothingReport> smooth_guided_normal(TriangleMesh& mesh, const GuidedNormalParams& params,
-                                             const Context& context) {
+                                             const Context& caller) {
+  const Context context = for_passes_over(mesh.triangles.size(), caller);
   if (auto valid = GuidedNormalParams::schema().check(params); !valid) return valid.error();
   const Result<FaceWork> work = begin_face_work(mesh, context.part(0, 0.03));
   if (!work) return work.error();
@@ -37,8 +38,8 @@ Result<SmoothingReport> smooth_guided_normal(TriangleMesh& mesh, const GuidedNor
   Adjacency ball;
   PatchGuidance patches;
   if (!measure_faces(context.part(0.03, 0.04), mesh.triangles, positions, faces) ||
-      !neighbours_within(context.part(0.04, 0.07), static_cast<float>(params.relative_radius),
-                         faces.centroids, work->vertex_neighbours, ball) ||
+      !connected_within(context.part(0.04, 0.07), static_cast<float>(params.relative_radius),
+                        faces.centroids, work->vertex_neighbours, ball) ||
       !patches.prepare(context.part(0.07, 0.1), work->edge_neighbours, work->vertex_neighbours)) {
     return cancelled();
   }

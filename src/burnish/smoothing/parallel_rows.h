@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -15,8 +16,9 @@ namespace burnish {
 template <class MakeAppend>
 [[nodiscard]] bool build_rows(const Context& context, std::size_t count, MakeAppend make_append,
                               Adjacency& rows) {
-  constexpr std::size_t kGrain = 4096;
-  std::vector<std::vector<std::uint32_t>> chunks((count + kGrain - 1) / kGrain);
+  // Few chunks, since each may make scratch as long as all the rows.
+  const std::size_t grain = std::max<std::size_t>(4096, count / 64 + 1);
+  std::vector<std::vector<std::uint32_t>> chunks((count + grain - 1) / grain);
   std::vector<std::uint32_t> offsets(count + 1, 0);
   const bool complete = parallel_for(
       context, chunks.size(),
@@ -24,8 +26,8 @@ template <class MakeAppend>
         auto append = make_append();
         for (std::size_t chunk = range.begin; chunk < range.end; ++chunk) {
           std::vector<std::uint32_t>& items = chunks[chunk];
-          const std::size_t end = std::min(count, (chunk + 1) * kGrain);
-          for (std::size_t row = chunk * kGrain; row < end; ++row) {
+          const std::size_t end = std::min(count, (chunk + 1) * grain);
+          for (std::size_t row = chunk * grain; row < end; ++row) {
             const std::size_t before = items.size();
             append(row, items);
             offsets[row + 1] = static_cast<std::uint32_t>(items.size() - before);
@@ -37,7 +39,7 @@ template <class MakeAppend>
   for (std::size_t row = 0; row < count; ++row) offsets[row + 1] += offsets[row];
   std::vector<std::uint32_t> items(offsets.back());
   for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
-    std::copy(chunks[chunk].begin(), chunks[chunk].end(), items.begin() + offsets[chunk * kGrain]);
+    std::copy(chunks[chunk].begin(), chunks[chunk].end(), items.begin() + offsets[chunk * grain]);
   }
   rows = Adjacency(std::move(offsets), std::move(items));
   return true;

@@ -1,6 +1,7 @@
 #include "burnish/smoothing/patch_guidance.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -12,31 +13,36 @@ namespace {
 /// The normals of a patch, which are compared with each other four at a time.
 class PatchNormals {
  public:
+  explicit PatchNormals(std::size_t most) : members_(most + 3), fours_(most / 4 + 1) {}
+
   void gather(std::span<const std::uint32_t> faces, const FaceNormals& normals) {
-    members_.clear();
+    count_ = 0;
     sum_ = Quad();
     for (const std::uint32_t f : faces) {
       const Quad normal = normals[f];
-      if (!(normal.w() > 0)) continue;
-      members_.push_back(normal);
+      members_[count_] = normal;
+      count_ += normal.w() > 0;
       sum_ += normal.w() * normal;
     }
-    fours_.clear();
-    for (std::size_t i = 0; i < members_.size(); i += 4) {
-      const auto member = [&](std::size_t k) { return members_[std::min(k, members_.size() - 1)]; };
-      const Quad a = members_[i], b = member(i + 1), c = member(i + 2), d = member(i + 3);
-      fours_.push_back({Quad(a[0], b[0], c[0], d[0]), Quad(a[1], b[1], c[1], d[1]),
-                        Quad(a[2], b[2], c[2], d[2])});
+    // The last four are filled up with copies, which differ from nothing more than what is there.
+    for (std::size_t i = count_; i % 4 != 0; ++i) members_[i] = members_[0];
+    for (std::size_t i = 0; i < count_; i += 4) {
+      const Quad &a = members_[i], &b = members_[i + 1], &c = members_[i + 2], &d = members_[i + 3];
+      fours_[i / 4] = {Quad(a[0], b[0], c[0], d[0]), Quad(a[1], b[1], c[1], d[1]),
+                       Quad(a[2], b[2], c[2], d[2])};
     }
   }
 
   /// max |n_a - n_b|
   float largest_difference() const {
     Quad largest;
-    for (std::size_t i = 0; i < members_.size(); ++i) {
-      const Quad x = splat<0>(members_[i]), y = splat<1>(members_[i]), z = splat<2>(members_[i]);
-      for (std::size_t k = i / 4; k < fours_.size(); ++k) {
-        const Quad dx = fours_[k].x - x, dy = fours_[k].y - y, dz = fours_[k].z - z;
+    for (std::size_t k = 0; 4 * k < count_; ++k) {
+      const Four four = fours_[k];
+      const std::size_t end = std::min(count_, 4 * k + 4);
+      for (std::size_t i = 0; i < end; ++i) {
+        const Quad dx = four.x - splat<0>(members_[i]);
+        const Quad dy = four.y - splat<1>(members_[i]);
+        const Quad dz = four.z - splat<2>(members_[i]);
         largest = larger(largest, dx * dx + dy * dy + dz * dz);
       }
     }
@@ -54,7 +60,8 @@ class PatchNormals {
     Quad x, y, z;
   };
   std::vector<Quad> members_;
-  std::vector<Four> fours_;  ///< the last padded with its last member
+  std::vector<Four> fours_;
+  std::size_t count_ = 0;
   Quad sum_;
 };
 
@@ -76,6 +83,11 @@ bool PatchGuidance::prepare(const Context& context, const Adjacency& edge_neighb
   first_pair[faces] = static_cast<std::uint32_t>(pairs_.size());
   differences_.resize(pairs_.size());
   patches_.resize(faces);
+  inconsistencies_.resize(faces);
+  most_members_ = 0;
+  for (std::size_t f = 0; f < faces; ++f) {
+    most_members_ = std::max(most_members_, vertex_neighbours.row(f).size());
+  }
 
   const auto make_append = [&] {
     return [&](std::size_t f, auto& items) {
@@ -109,7 +121,7 @@ bool PatchGuidance::find(const Context& context, const FaceNormals& normals,
 
   const bool patches_done =
       parallel_for(context.part(0.2, 0.8), normals.size(), [&](IndexRange range) {
-        PatchNormals patch;
+        PatchNormals patch(most_members_);
         for (std::size_t f = range.begin; f < range.end; ++f) {
           patch.gather(members_->row(f), normals);
           float largest = 0, sum = 1e-9f;
@@ -118,22 +130,21 @@ bool PatchGuidance::find(const Context& context, const FaceNormals& normals,
             sum += differences_[pair];
           }
           patches_[f] = patch.mean();
-          patches_[f].set_w(patch.largest_difference() * (largest / sum));
+          inconsistencies_[f] = patch.largest_difference() * (largest / sum);
         }
       });
   if (!patches_done) return false;
 
   return parallel_for(context.part(0.8, 1), normals.size(), [&](IndexRange range) {
     for (std::size_t f = range.begin; f < range.end; ++f) {
-      std::uint32_t best = static_cast<std::uint32_t>(f);
-      const auto candidates = members_->row(f);
-      for (const std::uint32_t g : candidates) {
-        if (patches_[g].w() < patches_[best].w() ||
-            (patches_[g].w() == patches_[best].w() && g < best)) {
-          best = g;
-        }
+      // Who is best cannot be predicted, so that no branch may depend on it. The bits of floats
+      // that are not negative rise with them.
+      std::uint64_t best = ~std::uint64_t{0};
+      for (const std::uint32_t g : members_->row(f)) {
+        const std::uint64_t rank = std::bit_cast<std::uint32_t>(inconsistencies_[g]);
+        best = std::min(best, rank << 32 | g);
       }
-      guidance[f] = patches_[best];
+      guidance[f] = patches_[static_cast<std::uint32_t>(best)];
     }
   });
 }

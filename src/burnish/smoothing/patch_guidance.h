@@ -30,15 +30,17 @@ class PatchGuidance {
   [[nodiscard]] bool find(const Context& context, const FaceNormals& normals,
                           std::vector<Quad>& guidance);
 
-  /// Of the latest call: per face, its patch's area-mean normal; w: its H.
-  const std::vector<Quad>& patches() const { return patches_; }
+  /// Of the latest call, per face: H of its patch.
+  const std::vector<float>& inconsistencies() const { return inconsistencies_; }
 
  private:
   const Adjacency* members_ = nullptr;
   std::vector<std::array<std::uint32_t, 2>> pairs_;  ///< faces that share an edge
   Adjacency inner_edges_;                            ///< per patch which of the pairs
   std::vector<float> differences_;                   ///< phi of every pair
-  std::vector<Quad> patches_;
+  std::vector<Quad> patches_;                        ///< the area-mean normal of each
+  std::vector<float> inconsistencies_;               ///< H of each
+  std::size_t most_members_ = 0;
 };
 
 }  // namespace burnish

@@ -33,8 +33,9 @@ VertexUpdate::VertexUpdate(const TriangleMesh& mesh, const Adjacency& faces_of_v
   const std::size_t vertices = mesh.positions.size(), faces = mesh.triangles.size();
   if (follows_.empty()) follows_.assign(vertices, 1);
   stays_.assign(vertices, false);
-  if (rules.boundary != BoundaryRule::free) stays_ = on_boundary_;
+  if (rules.boundary == BoundaryRule::fixed) stays_ = on_boundary_;
   if (rules.boundary == BoundaryRule::along_boundary) along_boundary_ = boundary_neighbours(mesh);
+  if (equalizing_ > 0) rings_ = one_rings(mesh);
   pulls_.resize(faces);
   offsets_.resize(faces);
   bad_.resize(faces);
@@ -108,7 +109,7 @@ bool VertexUpdate::prepare_vertices(const Context& context, const FaceNormals& w
       for (int i = 0; i < 3; ++i) steps_[v].columns[i] = static_cast<float>(scale) * columns[i];
       steps_[v].start = Quad(Vec3f(scale * start), static_cast<float>(scale));
       equalizers_[v] = Quad();
-      if (!bad || on_boundary_[v]) continue;
+      if (!bad || on_boundary_[v] || !(equalizing_ > 0)) continue;
       const Vec3f direction = normalized(normal.xyz());
       double bend = 0;
       for (const std::uint32_t f : faces_of_vertices_.row(v)) {
@@ -123,14 +124,11 @@ bool VertexUpdate::prepare_vertices(const Context& context, const FaceNormals& w
 Quad VertexUpdate::way_amid(std::size_t v, const std::vector<Vec3d>& positions) const {
   Quad sum;
   float lengths = 0;
-  // Inside, every neighbour is met in two triangles.
-  for (const std::uint32_t f : faces_of_vertices_.row(v)) {
-    for (const std::uint32_t w : mesh_.triangles[f]) {
-      const Quad edge = Quad(Vec3f(positions[w] - positions[v]), 0) + moves_[w] - moves_[v];
-      const float length = std::sqrt(dot3(edge, edge));
-      sum += length * edge;
-      lengths += length;
-    }
+  for (const std::uint32_t w : rings_.row(v)) {
+    const Quad edge = Quad(Vec3f(positions[w] - positions[v]), 0) + moves_[w] - moves_[v];
+    const float length = std::sqrt(dot3(edge, edge));
+    sum += length * edge;
+    lengths += length;
   }
   if (!(lengths > 0)) return Quad();
   const Quad way = 1 / lengths * sum;

@@ -31,13 +31,14 @@ struct VertexUpdateRules {
 /// goes amid its neighbours, far ones counting more, but not where it lies on a crease. This is the
 /// continuous form of "the farthest counts twice" (Ozbay and Cinar, Eq. 1).
 ///
-/// Vertices on an open boundary (on a non-manifold edge):
-///  - fixed: stay;
-///  - free: like all others, without equalizing. Normals pull nothing inwards, so that boundaries
-///    do not creep; their outline in the surface remains as noisy as it was;
-///  - along_boundary: at the beginning of each call they move once to the mean of themselves and
-///    their neighbours along the boundary, and stay during the passes. (Once in every pass would
-///    round the corners of an outline away, for there are hundreds of passes in some methods.)
+/// Vertices on an open boundary (on a non-manifold edge) are never equalized, which would pull them
+/// inwards. By the rule
+///  - fixed: they stay;
+///  - free: they follow the normals like all others. Normals pull nothing inwards, so that
+///    boundaries do not creep; their outline within the surface remains as noisy as it was;
+///  - along_boundary: as free, but at the beginning of each call they also move once to the mean of
+///    themselves and their neighbours along the boundary, which smooths the outline and rounds its
+///    corners. (Once in every pass would be far too much: some methods make hundreds.)
 class VertexUpdate {
  public:
   /// `mesh` and `faces_of_vertices` must outlive this. `follows`: the share of each move that a
@@ -69,6 +70,7 @@ class VertexUpdate {
   const TriangleMesh& mesh_;
   const Adjacency& faces_of_vertices_;
   double equalizing_;
+  Adjacency rings_;             ///< where equalizing
   std::vector<float> follows_;  ///< of every vertex its share of each move
   std::vector<bool> on_boundary_, stays_;
   Adjacency along_boundary_;  ///< the neighbours there, under that rule only
