@@ -6,6 +6,7 @@
 #include "burnish/repair/small_components.h"
 #include "burnish/smoothing/bilateral.h"
 #include "burnish/smoothing/bilateral_normal.h"
+#include "burnish/smoothing/automatic.h"
 #include "burnish/smoothing/gaussian.h"
 #include "burnish/smoothing/guided_normal.h"
 #include "burnish/smoothing/equalize.h"
@@ -72,6 +73,10 @@ std::span<const RepairOperation> repair_operations() {
 
 std::span<const SmoothOperation> smooth_operations() {
   static const std::vector<SmoothOperation> list{
+      edit_operation("auto", smooth_auto,
+                     "Removes the noise that is there: a small network chooses among normals that "
+                     "classical filters give.",
+                     "wang_liu_tong_2016"),
       edit_operation(
           "nearest_farthest", smooth_nearest_farthest,
           "Mean of the one-ring in which the nearest and the farthest neighbour count twice.",
