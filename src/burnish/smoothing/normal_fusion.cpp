@@ -36,7 +36,7 @@ FusionFrame frame_of(const FusionInput& input, std::size_t f) {
   FusionFrame frame;
   frame.z = unit_or(mean, {0, 0, 1, 0});
   const Quad u = across(frame.z), v = cross3(frame.z, u);
-  float uu = 0, uv = 0, vv = 0, lean_u = 0, lean_v = 0;
+  float uu = 0, uv = 0, vv = 0, lean_u = 0, lean_v = 0, rank = 0;
   const auto add = [&](const Quad& n, float weight) {
     const float a = dot3(n, u), b = dot3(n, v);
     uu += weight * a * a;
@@ -45,8 +45,10 @@ FusionFrame frame_of(const FusionInput& input, std::size_t f) {
   };
   for (const Quad& c : candidates) {
     add(c, 1);
-    lean_u += dot3(c, u);
-    lean_v += dot3(c, v);
+    // Across their mean the candidates add up to 0: the later ones count more.
+    rank += 1;
+    lean_u += rank * dot3(c, u);
+    lean_v += rank * dot3(c, v);
   }
   for (const std::uint32_t g : input.around->row(f)) {
     if (g != f) add(input.candidates->of(g)[NormalCandidates::kTwice], 1);
