@@ -6,7 +6,7 @@
 namespace burnish {
 
 struct AutoParams {
-  BoundaryRule boundary = BoundaryRule::fixed;
+  BoundaryRule boundary = BoundaryRule::free;  ///< normals pull nothing inwards
 
   static const Schema<AutoParams>& schema();
 };
