@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-/// Zheng et al. 2011, eq. 3, over each face and those that share a vertex with it, then the
+/// Zheng et al. 2011, over each face and those that share a vertex with it, then the
 /// vertices.
 std::vector<Vec3d> plain_bilateral_normal(const TriangleMesh& mesh,
                                           const BilateralNormalParams& params) {

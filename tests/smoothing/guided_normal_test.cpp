@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-/// H of the patch around each face, and its area-mean normal (Zhang et al. 2015, section 3.2).
+/// H of the patch around each face, and its area-mean normal (Zhang et al. 2015).
 struct PlainPatches {
   std::vector<double> inconsistency;
   std::vector<Vec3d> mean;

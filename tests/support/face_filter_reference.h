@@ -112,7 +112,7 @@ struct PlainUpdate {
   bool free_boundary = false;
 };
 
-/// Sun et al. 2007, eq. 9, with areas as weights, and the equalizing of bad triangles' vertices.
+/// Sun et al. 2007, with areas as weights, and the equalizing of bad triangles' vertices.
 inline void plain_vertex_update(const std::vector<Triangle>& triangles,
                                 const std::vector<Vec3d>& wanted, const PlainUpdate& update,
                                 std::vector<Vec3d>& points) {
