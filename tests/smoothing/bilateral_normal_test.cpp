@@ -13,15 +13,14 @@ namespace {
 
 using namespace test;
 
-/// Zheng et al. 2011, eq. 3, over each face and those that share a vertex with it, then the
+/// Zheng et al. 2011, over each face and those that share a vertex with it, then the
 /// vertices.
 std::vector<Vec3d> plain_bilateral_normal(const TriangleMesh& mesh,
                                           const BilateralNormalParams& params) {
   std::vector<Vec3d> points = doubles(mesh.positions);
   PlainFaces faces = plain_faces(mesh.triangles, points);
-  const double sigma_c = plain_spacing(faces, faces_sharing(mesh.triangles, 2));
-  FaceSets neighbours = faces_sharing(mesh.triangles, 1);
-  for (std::size_t f = 0; f < neighbours.size(); ++f) neighbours[f].insert(f);
+  const double sigma_c = plain_spacing(faces, faces_sharing(mesh, 2));
+  const Lists neighbours = with_itself(faces_sharing(mesh, 1));
   for (int pass = 0; pass < params.iterations; ++pass) {
     const std::vector<Vec3d> old = faces.normals;
     for (std::size_t i = 0; i < old.size(); ++i) {

@@ -17,12 +17,12 @@ using namespace test;
 /// Fleishman et al. 2003 as printed; every vertex free.
 std::vector<Vec3d> plain_bilateral(const TriangleMesh& mesh, const BilateralParams& params) {
   std::vector<Vec3d> points = doubles(mesh.positions);
-  FaceSets ring(points.size());
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) {
-      for (const std::uint32_t w : t) {
-        if (v != w) ring[v].insert(w);
-      }
+  Lists ring(points.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const auto& [v, w] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+      if (v == w || std::count(ring[v].begin(), ring[v].end(), w) > 0) continue;
+      ring[v].push_back(w);
+      ring[w].push_back(v);
     }
   }
   double edge = 0, edges = 0;
@@ -30,7 +30,7 @@ std::vector<Vec3d> plain_bilateral(const TriangleMesh& mesh, const BilateralPara
     for (const std::size_t w : ring[v]) edge += norm(points[v] - points[w]), ++edges;
   }
   const double sigma_c = params.relative_width * edge / edges;
-  FaceSets around;
+  Lists around;
   for (std::size_t v = 0; v < ring.size(); ++v) {
     around.push_back(plain_ball(v, 2 * sigma_c, points, ring));
   }

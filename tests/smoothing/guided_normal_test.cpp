@@ -13,14 +13,14 @@ namespace {
 
 using namespace test;
 
-/// H of the patch around each face, and its area-mean normal (Zhang et al. 2015, section 3.2).
+/// H of the patch around each face, and its area-mean normal (Zhang et al. 2015).
 struct PlainPatches {
   std::vector<double> inconsistency;
   std::vector<Vec3d> mean;
 };
 
-PlainPatches plain_patches(const PlainFaces& faces, const FaceSets& members,
-                           const FaceSets& across_edges) {
+PlainPatches plain_patches(const PlainFaces& faces, const Lists& members,
+                           const Lists& across_edges) {
   PlainPatches patches;
   const auto difference = [&](std::size_t a, std::size_t b) {
     if (faces.areas[a] == 0 || faces.areas[b] == 0) return 0.;
@@ -33,7 +33,7 @@ PlainPatches plain_patches(const PlainFaces& faces, const FaceSets& members,
       mean += faces.areas[a] * faces.normals[a];
       for (const std::size_t b : members[f]) widest = std::max(widest, difference(a, b));
       for (const std::size_t b : across_edges[a]) {
-        if (b < a || members[f].count(b) == 0) continue;
+        if (b < a || !has(members[f], b)) continue;
         largest = std::max(largest, difference(a, b));
         sum += difference(a, b);
       }
@@ -46,13 +46,12 @@ PlainPatches plain_patches(const PlainFaces& faces, const FaceSets& members,
 
 std::vector<Vec3d> plain_guided_normal(const TriangleMesh& mesh, const GuidedNormalParams& params) {
   std::vector<Vec3d> points = doubles(mesh.positions);
-  const FaceSets across_edges = faces_sharing(mesh.triangles, 2);
-  const FaceSets neighbours = faces_sharing(mesh.triangles, 1);
-  FaceSets members = neighbours;
-  for (std::size_t f = 0; f < members.size(); ++f) members[f].insert(f);
+  const Lists across_edges = faces_sharing(mesh, 2);
+  const Lists neighbours = faces_sharing(mesh, 1);
+  const Lists members = with_itself(neighbours);
   PlainFaces faces = plain_faces(mesh.triangles, points);
   const double d = plain_spacing(faces, across_edges);
-  FaceSets balls;
+  Lists balls;
   for (std::size_t f = 0; f < members.size(); ++f) {
     balls.push_back(plain_ball(f, params.relative_radius * d, faces.centroids, neighbours));
   }

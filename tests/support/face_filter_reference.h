@@ -30,30 +30,51 @@ inline PlainFaces plain_faces(const std::vector<Triangle>& triangles,
   return faces;
 }
 
-using FaceSets = std::vector<std::set<std::size_t>>;
+/// Per element a rising list of others.
+using Lists = std::vector<std::vector<std::size_t>>;
+
+inline bool has(const std::vector<std::size_t>& list, std::size_t item) {
+  return std::binary_search(list.begin(), list.end(), item);
+}
+
+/// Puts every element into its own list.
+inline Lists with_itself(Lists lists) {
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    lists[i].insert(std::lower_bound(lists[i].begin(), lists[i].end(), i), i);
+  }
+  return lists;
+}
+
+/// Per vertex the triangles that name it.
+inline Lists users(const std::vector<Triangle>& triangles, std::size_t vertices) {
+  Lists result(vertices);
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    for (const std::uint32_t v : triangles[f]) {
+      if (result[v].empty() || result[v].back() != f) result[v].push_back(f);
+    }
+  }
+  return result;
+}
 
 /// Per face which other faces share at least so many corners with it.
-inline FaceSets faces_sharing(const std::vector<Triangle>& triangles, int corners) {
-  std::map<std::uint32_t, std::set<std::size_t>> users;
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    for (const std::uint32_t v : triangles[f]) users[v].insert(f);
-  }
-  FaceSets result(triangles.size());
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
+inline Lists faces_sharing(const TriangleMesh& mesh, int corners) {
+  const Lists faces_of = users(mesh.triangles, mesh.positions.size());
+  Lists result(mesh.triangles.size());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
     std::map<std::size_t, int> shared;
-    for (const std::uint32_t v :
-         std::set<std::uint32_t>(triangles[f].begin(), triangles[f].end())) {
-      for (const std::size_t g : users[v]) ++shared[g];
+    for (const std::uint32_t v : std::set<std::uint32_t>(t.begin(), t.end())) {
+      for (const std::size_t g : faces_of[v]) ++shared[g];
     }
     for (const auto& [g, count] : shared) {
-      if (g != f && count >= corners) result[f].insert(g);
+      if (g != f && count >= corners) result[f].push_back(g);
     }
   }
   return result;
 }
 
 /// The mean distance of the centroids of faces that share an edge.
-inline double plain_spacing(const PlainFaces& faces, const FaceSets& across_edges) {
+inline double plain_spacing(const PlainFaces& faces, const Lists& across_edges) {
   double sum = 0, count = 0;
   for (std::size_t f = 0; f < across_edges.size(); ++f) {
     for (const std::size_t g : across_edges[f]) {
@@ -68,16 +89,17 @@ inline double gaussian_weight(double distance, double sigma) {
   return std::exp(-distance * distance / (2 * sigma * sigma));
 }
 
-/// Faces that are connected to `f` within `radius`, f included: taken in until nothing changes.
-inline std::set<std::size_t> plain_ball(std::size_t f, double radius,
-                                        const std::vector<Vec3d>& centroids,
-                                        const FaceSets& neighbours) {
-  std::set<std::size_t> ball{f};
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (const std::size_t g : std::set<std::size_t>(ball)) {
-      for (const std::size_t h : neighbours[g]) {
-        if (norm(centroids[h] - centroids[f]) < radius) grows |= ball.insert(h).second;
+/// What is connected to point `f` within `radius`, itself included: taken in until nothing changes.
+inline std::vector<std::size_t> plain_ball(std::size_t f, double radius,
+                                           const std::vector<Vec3d>& points,
+                                           const Lists& neighbours) {
+  std::vector<std::size_t> ball{f};
+  for (std::size_t size = 0; size != ball.size();) {
+    size = ball.size();
+    for (std::size_t i = 0; i < size; ++i) {
+      for (const std::size_t h : neighbours[ball[i]]) {
+        const bool inside = norm(points[h] - points[f]) < radius;
+        if (inside && std::find(ball.begin(), ball.end(), h) == ball.end()) ball.push_back(h);
       }
     }
   }
@@ -90,30 +112,26 @@ struct PlainUpdate {
   bool free_boundary = false;
 };
 
-/// Sun et al. 2007, eq. 9, with areas as weights, and the equalizing of bad triangles' vertices.
+/// Sun et al. 2007, with areas as weights, and the equalizing of bad triangles' vertices.
 inline void plain_vertex_update(const std::vector<Triangle>& triangles,
                                 const std::vector<Vec3d>& wanted, const PlainUpdate& update,
                                 std::vector<Vec3d>& points) {
   const PlainFaces before = plain_faces(triangles, points);
   const std::vector<Vec3d> start = points;
-  std::vector<std::vector<std::size_t>> around(points.size());
+  const Lists around = users(triangles, points.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    const Triangle& t = triangles[f];
-    for (const std::uint32_t v : std::set<std::uint32_t>(t.begin(), t.end())) {
-      around[v].push_back(f);
-    }
+  for (const Triangle& t : triangles) {
     for (int i = 0; i < 3; ++i) {
       const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
       if (low != high) ++edges[{low, high}];
     }
   }
-  std::set<std::uint32_t> boundary;
-  std::vector<std::set<std::uint32_t>> ring(points.size());
+  std::vector<bool> boundary(points.size());
+  std::vector<std::vector<std::uint32_t>> ring(points.size());
   for (const auto& [edge, count] : edges) {
-    ring[edge.first].insert(edge.second);
-    ring[edge.second].insert(edge.first);
-    if (count != 2) boundary.insert({edge.first, edge.second});
+    ring[edge.first].push_back(edge.second);
+    ring[edge.second].push_back(edge.first);
+    if (count != 2) boundary[edge.first] = boundary[edge.second] = true;
   }
   const auto is_bad = [&](std::size_t f) {
     const auto [a, b, c] = triangles[f];
@@ -125,7 +143,7 @@ inline void plain_vertex_update(const std::vector<Triangle>& triangles,
   for (int pass = 0; pass < update.passes; ++pass) {
     const std::vector<Vec3d> old = points;
     for (std::uint32_t v = 0; v < points.size(); ++v) {
-      if (boundary.count(v) > 0 && !update.free_boundary) continue;
+      if (boundary[v] && !update.free_boundary) continue;
       Vec3d move, normal;
       double area = 0;
       bool bad = false;
@@ -138,7 +156,7 @@ inline void plain_vertex_update(const std::vector<Triangle>& triangles,
         bad = bad || is_bad(f);
       }
       if (area > 0) points[v] += move / area;
-      if (!bad || boundary.count(v) > 0) continue;
+      if (!bad || boundary[v]) continue;
       normal = normalized(normal);
       double bend = 0;
       for (const std::size_t f : around[v]) {

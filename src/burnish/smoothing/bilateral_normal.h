@@ -16,7 +16,7 @@ struct BilateralNormalParams {
 };
 
 /// Face normals are filtered bilaterally, then the vertices follow them (Zheng, Fu, Au, Tai 2011,
-/// local scheme, eq. 3): each normal becomes the normalised
+/// local scheme): each normal becomes the normalised
 ///     sum_j A_j exp(-|c_i - c_j|^2 / (2 sigma_c^2)) exp(-|n_i - n_j|^2 / (2 sigma_s^2)) n_j
 /// over the face itself and all that share a vertex with it, with areas A, centroids c and sigma_c
 /// the mean distance of the centroids of faces that share an edge. Vertices are moved as

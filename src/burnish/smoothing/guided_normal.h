@@ -20,7 +20,7 @@ struct GuidedNormalParams {
 /// gets a guidance normal g, that of the patch around it that is most of one piece
 /// (patch_guidance.h), its normal becomes the normalised
 ///     sum_j A_j exp(-|c_i - c_j|^2 / (2 d^2)) exp(-|g_i - g_j|^2 / (2 sigma_r^2)) n_j
-/// over the faces j that are connected to it within relative_radius * d (eq. 3), and the vertices
+/// over the faces j that are connected to it within relative_radius * d, and the vertices
 /// are moved as vertex_update.h says (Sun et al. 2007; equalizing = 0 is theirs but for weights by
 /// area). d is the mean distance of the centroids of faces that share an edge. It and the
 /// neighbourhoods are those of the mesh as it came.

@@ -13,8 +13,8 @@ namespace burnish {
 ///     n_i' = K sum_j A_j exp(-|c_i - c_j|^2 / (2 sigma_c^2)) exp(-|g_i - g_j|^2 / (2 sigma_s^2))
 ///     n_j
 /// over the rows of `neighbours`, where K makes the length 1. With guidance g = n it is the
-/// bilateral filter of Zheng et al. 2011 (eq. 3), with others the guided one of Zhang et al. 2015
-/// (eq. 3); without any (empty) the second factor is 1, which is plain diffusion. A normal stays as
+/// bilateral filter of Zheng et al. 2011, with others the guided one of Zhang et al. 2015;
+/// without any (empty) the second factor is 1, which is plain diffusion. A normal stays as
 /// it is where the sum has no direction. Areas (w) stay. O(entries of `neighbours`).
 struct NormalKernel {
   float sigma_c = 1;      ///< in units of FaceSurface

@@ -11,7 +11,7 @@
 // Not part of the library's interface.
 namespace burnish {
 
-/// The guidance normals of Zhang, Deng, Zhang, Bouaziz, Liu 2015 (section 3.2). A patch is a face
+/// The guidance normals of Zhang, Deng, Zhang, Bouaziz, Liu 2015. A patch is a face
 /// with its vertex-neighbours. How much it is not of one piece is
 ///     H = Phi R,   Phi = max |n_a - n_b| over its faces,   R = max phi_e / (1e-9 + sum phi_e)
 /// over its inner edges e (shared by two of its faces), phi_e = |n_1 - n_2| across the edge. The

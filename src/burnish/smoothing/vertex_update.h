@@ -21,7 +21,7 @@ struct VertexUpdateRules {
 
 /// Moves vertices until the faces have given normals, by passes (Jacobi) of
 ///     p_i += 1 / (sum A_f) sum_f A_f n_f <n_f, c_f - p_i>
-/// over the faces f of vertex i (Sun, Rosin, Martin, Langbein 2007, eq. 9, with the areas A_f at
+/// over the faces f of vertex i (Sun, Rosin, Martin, Langbein 2007, with the areas A_f at
 /// the beginning as weights, so that slivers do not pull). Where one of its triangles is bad at the
 /// beginning (its normal and the wanted one differ by more than 37 degrees, or its quality
 /// 4 sqrt(3) A / (sum of squared sides) is below 0.35) each pass also adds
