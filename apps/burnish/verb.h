@@ -13,6 +13,7 @@
 #include "burnish/base/facts.h"
 #include "burnish/base/result.h"
 #include "burnish/catalogue/operations.h"
+#include "burnish/pipeline/region.h"
 
 namespace burnish::app {
 
@@ -52,5 +53,9 @@ CLI::Option* add_method(CLI::App* verb, const std::string& name, std::vector<std
 
 /// The methods written in `texts`. Errors: invalid_argument.
 Result<std::vector<Method>> parse_methods(const std::vector<std::string>& texts);
+
+/// The region that `option` was given as `text`; none where it was not given. Errors:
+/// invalid_argument.
+Result<std::optional<Region>> parse_region_option(const std::string& text, const char* option);
 
 }  // namespace burnish::app

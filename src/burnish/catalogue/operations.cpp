@@ -4,6 +4,11 @@
 #include "burnish/points/remove_flying_pixels.h"
 #include "burnish/points/remove_outliers.h"
 #include "burnish/repair/small_components.h"
+#include "burnish/smoothing/bilateral.h"
+#include "burnish/smoothing/bilateral_normal.h"
+#include "burnish/smoothing/automatic.h"
+#include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/guided_normal.h"
 #include "burnish/smoothing/equalize.h"
 #include "burnish/smoothing/gaussian.h"
 #include "burnish/smoothing/humphrey.h"
@@ -68,6 +73,10 @@ std::span<const RepairOperation> repair_operations() {
 
 std::span<const SmoothOperation> smooth_operations() {
   static const std::vector<SmoothOperation> list{
+      edit_operation("auto", smooth_auto,
+                     "Removes the noise that is there: a small network chooses among normals that "
+                     "classical filters give.",
+                     "wang_liu_tong_2016"),
       edit_operation(
           "nearest_farthest", smooth_nearest_farthest,
           "Mean of the one-ring in which the nearest and the farthest neighbour count twice.",
@@ -78,6 +87,15 @@ std::span<const SmoothOperation> smooth_operations() {
           "gaussian", smooth_gaussian,
           "Mean of the one-ring and the vertex itself, weighted by a Gaussian of the distance.",
           "ozbay_cinar"),
+      edit_operation("bilateral", smooth_bilateral,
+                     "Each vertex moves along its normal to near vertices of about its height.",
+                     "fleishman_2003"),
+      edit_operation("bilateral_normal", smooth_bilateral_normal,
+                     "Face normals are averaged with like ones around them, vertices follow them.",
+                     "zheng_2011"),
+      edit_operation("guided_normal", smooth_guided_normal,
+                     "Face normals are filtered along the patches that are most of one piece.",
+                     "zhang_2015"),
       edit_operation("laplacian", smooth_laplacian,
                      "Part of the way to the mean of the one-ring, by equal or cotangent weights.",
                      "desbrun_1999"),

@@ -2,6 +2,7 @@
 
 #include "burnish/catalogue/operations.h"
 #include "burnish/pipeline/record.h"
+#include "burnish/pipeline/region.h"
 
 namespace burnish {
 
@@ -21,10 +22,12 @@ Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& me
 Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods, Record& record,
                          const Context& context);
 
-/// With `keep_phases` the record gets the mesh as it is now ("original") and after each method
-/// ("phase 1", "phase 2", ...).
+/// Moves the vertices alone that lie in `region` (world coordinates) before the first phase, where
+/// one is given; a channel smoothing_weight that the mesh brings counts besides. With `keep_phases`
+/// the record gets the mesh as it is now ("original") and after each method ("phase 1", ...).
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
-                              bool keep_phases, Record& record, const Context& context);
+                              const std::optional<Region>& region, bool keep_phases, Record& record,
+                              const Context& context);
 
 /// A record with its title, the command line and the versions filled in.
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs);

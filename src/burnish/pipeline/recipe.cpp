@@ -31,6 +31,11 @@ Result<void> check(const Recipe& recipe) {
     if (auto ok = check_methods({*recipe.triangulate}, find_triangulate); !ok) return ok;
   }
   if (auto ok = check_methods(recipe.repair, find_repair); !ok) return ok;
+  if (recipe.smooth_region && recipe.smooth.empty()) {
+    return Error{ErrorCode::invalid_argument,
+                 "a region to smooth is given, but no method to smooth with",
+                 {}};
+  }
   return check_smoothing(recipe.smooth);
 }
 
