@@ -6,6 +6,21 @@
 namespace burnish {
 namespace {
 
+/// Without the neighbours of vertices that are pinned.
+Adjacency without_pinned(const Adjacency& rings, const std::vector<float>& follows) {
+  std::vector<std::uint32_t> offsets{0}, items;
+  offsets.reserve(rings.offsets().size());
+  items.reserve(rings.items().size());
+  for (std::size_t v = 0; v < rings.size(); ++v) {
+    const auto row = rings.row(v);
+    if (follows[v] > 0) items.insert(items.end(), row.begin(), row.end());
+    offsets.push_back(static_cast<std::uint32_t>(items.size()));
+  }
+  return {std::move(offsets), std::move(items)};
+}
+
+}  // namespace
+
 Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
   if (boundary == BoundaryRule::free) return one_rings(mesh);
   const Adjacency ends = edge_ends(mesh);
@@ -25,21 +40,6 @@ Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
   }
   return {std::move(offsets), std::move(items)};
 }
-
-/// Without the neighbours of vertices that are pinned.
-Adjacency without_pinned(const Adjacency& rings, const std::vector<float>& follows) {
-  std::vector<std::uint32_t> offsets{0}, items;
-  offsets.reserve(rings.offsets().size());
-  items.reserve(rings.items().size());
-  for (std::size_t v = 0; v < rings.size(); ++v) {
-    const auto row = rings.row(v);
-    if (follows[v] > 0) items.insert(items.end(), row.begin(), row.end());
-    offsets.push_back(static_cast<std::uint32_t>(items.size()));
-  }
-  return {std::move(offsets), std::move(items)};
-}
-
-}  // namespace
 
 Result<RingMesh> ring_mesh(const TriangleMesh& mesh, BoundaryRule boundary) {
   if (auto sound = check(mesh); !sound) return sound.error();
