@@ -4,22 +4,6 @@
 #include <string>
 
 namespace burnish {
-namespace {
-
-/// Without the neighbours of vertices that are pinned.
-Adjacency without_pinned(const Adjacency& rings, const std::vector<float>& follows) {
-  std::vector<std::uint32_t> offsets{0}, items;
-  offsets.reserve(rings.offsets().size());
-  items.reserve(rings.items().size());
-  for (std::size_t v = 0; v < rings.size(); ++v) {
-    const auto row = rings.row(v);
-    if (follows[v] > 0) items.insert(items.end(), row.begin(), row.end());
-    offsets.push_back(static_cast<std::uint32_t>(items.size()));
-  }
-  return {std::move(offsets), std::move(items)};
-}
-
-}  // namespace
 
 Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
   if (boundary == BoundaryRule::free) return one_rings(mesh);
@@ -40,6 +24,23 @@ Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
   }
   return {std::move(offsets), std::move(items)};
 }
+
+namespace {
+
+/// Without the neighbours of vertices that are pinned.
+Adjacency without_pinned(const Adjacency& rings, const std::vector<float>& follows) {
+  std::vector<std::uint32_t> offsets{0}, items;
+  offsets.reserve(rings.offsets().size());
+  items.reserve(rings.items().size());
+  for (std::size_t v = 0; v < rings.size(); ++v) {
+    const auto row = rings.row(v);
+    if (follows[v] > 0) items.insert(items.end(), row.begin(), row.end());
+    offsets.push_back(static_cast<std::uint32_t>(items.size()));
+  }
+  return {std::move(offsets), std::move(items)};
+}
+
+}  // namespace
 
 Result<RingMesh> ring_mesh(const TriangleMesh& mesh, BoundaryRule boundary) {
   if (auto sound = check(mesh); !sound) return sound.error();

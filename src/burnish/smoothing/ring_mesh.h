@@ -13,9 +13,6 @@
 // library's interface.
 namespace burnish {
 
-/// The neighbours that the boundary rule has each vertex smoothed with; none where it is to stay.
-Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary);
-
 /// A mesh as these smoothings work on it: in double from the first pass to the last.
 struct RingMesh {
   Adjacency rings;             ///< neighbours of each vertex; none where it stays or is pinned
@@ -25,6 +22,9 @@ struct RingMesh {
   /// The share of every move that vertex v makes.
   double follow(std::size_t v) const { return follows.empty() ? 1 : double{follows[v]}; }
 };
+
+/// The neighbours that the boundary rule gives each vertex; none where it is to stay.
+Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary);
 
 /// Errors: bad_geometry.
 Result<RingMesh> ring_mesh(const TriangleMesh& mesh, BoundaryRule boundary);
