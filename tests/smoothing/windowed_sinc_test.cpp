@@ -48,7 +48,7 @@ std::vector<double> plain_polynomial(int degree, double pass_band) {
 template <int degree>
 std::vector<Vec3d> plain_windowed_sinc(const TriangleMesh& mesh, BoundaryRule rule) {
   const test::PlainRings rings = test::plain_rings(mesh, rule);
-  const std::vector<double> polynomial = plain_polynomial(degree, 0.1);
+  static const std::vector<double> polynomial = plain_polynomial(degree, 0.1);
   const std::vector<Vec3d> p = test::plain_positions(mesh);
   std::vector<Vec3d> value(p.size());
   for (std::size_t i = polynomial.size(); i-- > 0;) {
