@@ -4,7 +4,6 @@
 #include <string>
 
 namespace burnish {
-namespace {
 
 Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
   if (boundary == BoundaryRule::free) return one_rings(mesh);
@@ -25,6 +24,8 @@ Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
   }
   return {std::move(offsets), std::move(items)};
 }
+
+namespace {
 
 /// Without the neighbours of vertices that are pinned.
 Adjacency without_pinned(const Adjacency& rings, const std::vector<float>& follows) {
