@@ -9,7 +9,7 @@
 #include "burnish/core/edges.h"
 #include "burnish/smoothing/face_neighbours.h"
 #include "burnish/smoothing/face_work.h"
-#include "burnish/smoothing/ring_filter.h"
+#include "burnish/smoothing/ring_mesh.h"
 #include "burnish/smoothing/smoothing_weights.h"
 
 namespace burnish {

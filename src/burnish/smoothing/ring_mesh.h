@@ -27,6 +27,9 @@ struct RingMesh {
   double follow(std::size_t v) const { return follows.empty() ? 1 : double{follows[v]}; }
 };
 
+/// The neighbours that the boundary rule gives each vertex; none where it is to stay.
+Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary);
+
 /// Errors: bad_geometry.
 Result<RingMesh> ring_mesh(const TriangleMesh& mesh, BoundaryRule boundary);
 
