@@ -13,10 +13,6 @@
 // library's interface.
 namespace burnish {
 
-/// The neighbours that each vertex is smoothed with under a boundary rule; none where it is to
-/// stay.
-Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary);
-
 /// A mesh as these smoothings work on it: in double from the first pass to the last.
 struct RingMesh {
   Adjacency rings;             ///< neighbours of each vertex; none where it stays or is pinned
