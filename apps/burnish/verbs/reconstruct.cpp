@@ -13,7 +13,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> inputs;
-  std::string output, truth, crop;
+  std::string output, truth, crop, bound;
   ReportOutput report;
   FrameTexts frames;
   std::vector<std::string> clean, merge, clean_merged, triangulate, repair, smooth;
@@ -42,6 +42,9 @@ Result<Recipe> recipe_of(const Options& options) {
     if (!region) return region.error();
     recipe.crop = *region;
   }
+  const auto bound = bound_of(options.bound);
+  if (!bound) return bound.error();
+  recipe.bound = *bound;
   std::vector<Method> merge{recipe.merge}, triangulate;
   const std::pair<std::vector<Method>*, const std::vector<std::string>*> steps[] = {
       {&recipe.clean_scan, &options.clean},
@@ -77,9 +80,13 @@ Result<void> run(const Options& options, const Session& session, const Context& 
   Result<Reconstruction> made =
       reconstruct(inputs, *recipe, how, std::move(record), context.part(0, 0.85));
   if (!made) return std::move(made).error();
-  if (auto written = save(options.output, made->mesh, session, context.part(0.85, 0.88)); !written)
+  if (auto written = save(options.output, made->mesh, session, context.part(0.85, 0.88),
+                          comments_of(made->record));
+      !written) {
     return written;
+  }
   say_steps(session, made->record);
+  say_certificate(session, made->record);
   say_comparisons(session, made->record);
   say_mesh(session, options.output, made->mesh);
   return write_report_output(options.report, made->record, session, context.part(0.88, 1));
@@ -114,6 +121,7 @@ Action add_reconstruct(CLI::App& app) {
   add_method(verb, "--repair", options->repair, "repair", "repair the mesh; none: do not");
   add_method(verb, "--smooth", options->smooth, "smooth",
              "smooth the mesh; repeat it for one phase after another; none: do not");
+  add_bound(verb, options->bound);
   verb->footer(
       "Known layouts: 7-Scenes (frame-NNN.depth.png, frame-NNN.pose.txt, camera-intrinsics.txt); "
       "numbered\n"

@@ -11,7 +11,7 @@ namespace burnish::app {
 namespace {
 
 struct Options {
-  std::string input, output;
+  std::string input, output, bound;
   ReportOutput report;
   std::vector<std::string> methods;
 };
@@ -20,6 +20,8 @@ Result<void> smooth(const Options& options, const Session& session, const Contex
   const Result<std::vector<Method>> methods = parse_methods(options.methods);
   if (!methods) return methods.error();
   if (auto known = check_smoothing(*methods); !known) return known;
+  const auto bound = bound_of(options.bound);
+  if (!bound) return bound.error();
 
   if (auto possible = check_output(options.output); !possible) return possible;
   if (auto possible = check_report_output(options.report); !possible) return possible;
@@ -32,13 +34,18 @@ Result<void> smooth(const Options& options, const Session& session, const Contex
   Result<TriangleMesh> mesh = mesh_of(*std::move(file), options.input);
   if (!mesh) return std::move(mesh).error();
   const bool keep_phases = options.report.wanted();
-  if (auto done = smooth_in_phases(*mesh, *methods, keep_phases, record, context.part(0.2, 0.7));
+  if (auto done =
+          smooth_in_phases(*mesh, *methods, *bound, keep_phases, record, context.part(0.2, 0.7));
       !done) {
     return done;
   }
-  if (auto written = save(options.output, *mesh, session, context.part(0.7, 0.8)); !written)
+  if (auto written =
+          save(options.output, *mesh, session, context.part(0.7, 0.8), comments_of(record));
+      !written) {
     return written;
+  }
   say_steps(session, record);
+  say_certificate(session, record);
   return write_report_output(options.report, record, session, context.part(0.8, 1));
 }
 
@@ -53,10 +60,13 @@ Action add_smooth(CLI::App& app) {
   add_method(verb, "-m,--method", options->methods, "smooth",
              "how; repeat it for one phase after another")
       ->required();
+  add_bound(verb, options->bound);
   add_report_options(verb, options->report);
   verb->footer(
       "Methods:\n" + methods_help("smooth") +
-      "Example:\n  burnish smooth scan.ply -o smooth.ply --method nearest_farthest:iterations=2");
+      "Examples:\n"
+      "  burnish smooth scan.ply -o smooth.ply --method nearest_farthest:iterations=2\n"
+      "  burnish smooth scan.ply -o smooth.ply --method gaussian:iterations=5 --bound noise:c=2");
   return [options](const Session& s, const Context& c) { return smooth(*options, s, c); };
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "burnish/base/version.h"
+#include "burnish/pipeline/recipe.h"
 
 namespace burnish {
 namespace {
@@ -50,13 +51,40 @@ Result<void> edit(std::string_view verb, T& edited, const std::vector<Method>& m
         [&](const auto& operation) { return operation.run(edited, methods[i].settings, share); },
         [](const Facts& measured) { return measured; });
     if (!facts) return facts.error();
-    after(i);
+    if (auto ok = after(i); !ok) return ok;
   }
   return {};
 }
 
-constexpr auto kNothing = [](std::size_t) {};
+constexpr auto kNothing = [](std::size_t) { return Result<void>(); };
 constexpr auto kFactsOfCreated = [](const auto& created) { return created.facts; };
+
+Error in_bound(Error error) {
+  return in_step("bound", {kNoiseBound, {}}, std::move(error));
+}
+
+/// Binds what a phase has moved to the noise, and records it.
+Result<void> put_back(const TriangleMesh& before, TriangleMesh& mesh,
+                      const NoiseBoundParams& params, Record& record, const Context& context) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto report = bound_to_noise(before, mesh, params, context);
+  if (!report) return in_bound(report.error());
+  const auto& schema = NoiseBoundParams::schema();
+  record.steps.push_back({"bound", kNoiseBound, schema.settings(params), report->facts(),
+                          seconds_since(start), schema.fields()});
+  return {};
+}
+
+Result<void> certify(const TriangleMesh& before, const TriangleMesh& mesh, double c,
+                     Record& record) {
+  Result<NoiseCertificate> certificate = certify_noise_bound(before, mesh, c);
+  if (!certificate) return in_bound(certificate.error());
+  if (!certificate->holds()) {
+    return in_bound({ErrorCode::refuted, sentences(*certificate).front(), {}});
+  }
+  record.certificate = *std::move(certificate);
+  return {};
+}
 
 }  // namespace
 
@@ -101,11 +129,29 @@ Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods,
 }
 
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
-                              bool keep_phases, Record& record, const Context& context) {
+                              const std::optional<NoiseBoundParams>& bound, bool keep_phases,
+                              Record& record, const Context& context) {
+  TriangleMesh before;
+  if (bound) {
+    if (auto known = check_noise(mesh); !known) return in_bound(known.error());
+    before = mesh;
+  }
   if (keep_phases) record.phases.push_back({"original", mesh, {}});
-  return edit("smooth", mesh, methods, find_smooth, record, context, [&](std::size_t i) {
+  Context silent = context;
+  silent.sink = nullptr;  // the bar belongs to the phases; to bind one takes next to no time
+  const auto after_phase = [&](std::size_t i) -> Result<void> {
+    if (bound) {
+      if (auto done = put_back(before, mesh, *bound, record, silent); !done) {
+        return done;
+      }
+    }
     if (keep_phases) record.phases.push_back({fmt::format("phase {}", i + 1), mesh, {}});
-  });
+    return {};
+  };
+  if (auto done = edit("smooth", mesh, methods, find_smooth, record, context, after_phase); !done) {
+    return done;
+  }
+  return bound ? certify(before, mesh, bound->c, record) : Result<void>();
 }
 
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include "burnish/catalogue/operations.h"
 #include "burnish/pipeline/record.h"
+#include "burnish/smoothing/noise_bound.h"
 
 namespace burnish {
 
@@ -22,9 +25,14 @@ Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods,
                          const Context& context);
 
 /// With `keep_phases` the record gets the mesh as it is now ("original") and after each method
-/// ("phase 1", "phase 2", ...).
+/// ("phase 1", "phase 2", ...). With a `bound` no vertex leaves the region in which the mesh as it
+/// is now says that it can be: it is put back after each method, and the record gets the
+/// certificate, which a computation of its own makes. Errors: bad_geometry where a bound is wanted
+/// and the mesh knows of no noise, before anything is smoothed; refuted where the certificate does
+/// not hold.
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
-                              bool keep_phases, Record& record, const Context& context);
+                              const std::optional<NoiseBoundParams>& bound, bool keep_phases,
+                              Record& record, const Context& context);
 
 /// A record with its title, the command line and the versions filled in.
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs);
