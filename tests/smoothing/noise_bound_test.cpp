@@ -205,6 +205,22 @@ TEST(NoiseBound, LeavesInventedVerticesFreeAndHoldsExactOnes) {
   EXPECT_EQ(report->put_back, 2u);
 }
 
+TEST(NoiseBound, HoldsWhatIsExactInOneDirection) {
+  // Floats cannot keep to the plane or to the line that is left: not even a move within it counts.
+  for (const PointNoise& noise : {PointNoise{{0, 0, 1}, 0, 0.1f}, PointNoise{{0, 0, 1}, 0.1f, 0}}) {
+    const TriangleMesh before = one_vertex({0, 0, 0}, noise);
+    for (const Vec3f& way : {Vec3f{0.01f, 0, 0}, Vec3f{0, 0, 0.01f}, Vec3f{0.01f, 0, 0.01f}}) {
+      TriangleMesh after = before;
+      after.positions[0] = way;
+      const auto moved = certify_noise_bound(before, after, 2);
+      ASSERT_TRUE(moved);
+      EXPECT_EQ(moved->outside, 1u);
+      ASSERT_TRUE(bound_to_noise(before, after));
+      EXPECT_EQ(after.positions, before.positions);
+    }
+  }
+}
+
 TEST(NoiseBound, MixesSigmaAndComputesNormalsAnew) {
   TriangleMesh before = make_grid(2, 2);
   before.attributes.sigma.assign(9, 0.1f);
