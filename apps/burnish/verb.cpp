@@ -83,4 +83,11 @@ Result<std::vector<Method>> parse_methods(const std::vector<std::string>& texts)
   return methods;
 }
 
+Result<std::optional<Region>> parse_region_option(const std::string& text, const char* option) {
+  if (text.empty()) return std::optional<Region>();
+  const Result<Region> region = parse_region(text);
+  if (!region) return Error{region.error().code, region.error().message, option};
+  return std::optional<Region>(*region);
+}
+
 }  // namespace burnish::app

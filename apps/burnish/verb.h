@@ -13,6 +13,7 @@
 #include "burnish/base/facts.h"
 #include "burnish/base/result.h"
 #include "burnish/catalogue/operations.h"
+#include "burnish/pipeline/region.h"
 #include "burnish/smoothing/noise_bound.h"
 
 namespace burnish::app {
@@ -60,5 +61,9 @@ Result<std::optional<NoiseBoundParams>> bound_of(const std::string& text);
 
 /// The methods written in `texts`. Errors: invalid_argument.
 Result<std::vector<Method>> parse_methods(const std::vector<std::string>& texts);
+
+/// The region that `option` was given as `text`; none where it was not given. Errors:
+/// invalid_argument.
+Result<std::optional<Region>> parse_region_option(const std::string& text, const char* option);
 
 }  // namespace burnish::app

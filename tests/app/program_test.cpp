@@ -288,6 +288,98 @@ TEST(Program, SmoothsInPhasesOneAfterAnother) {
   }
 }
 
+TEST(Program, MeasuresWhatIsLeftOfNoiseWhereTheTrianglesAreThoseOfTheTruth) {
+  const TemporaryFolder folder;
+  const TriangleMesh truth = make_box({1, 1, 1}, 4);
+  TriangleMesh half = truth;
+  for (Vec3f& p : half.positions) p = 0.5f * p;
+  ASSERT_TRUE(write_mesh(folder / "truth.ply", truth));
+  ASSERT_TRUE(write_mesh(folder / "half.ply", half));
+  ASSERT_TRUE(write_mesh(folder / "other.ply", make_box({1, 1, 1}, 5)));
+  const auto measured = [&](const char* mesh) {
+    return burnish({"measure", folder / mesh, "--truth", folder / "truth.ply", "--json"});
+  };
+  const Outcome same = measured("half.ply"), other = measured("other.ply");
+  ASSERT_EQ(same.status, 0) << same.err;
+  ASSERT_EQ(other.status, 0) << other.err;
+  EXPECT_NE(same.out.find("\"volume_change\": -0.875"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("\"vertex_error_m\": 0.25"), std::string::npos) << same.out;
+  EXPECT_NE(other.out.find("\"coverage\""), std::string::npos) << other.out;
+  EXPECT_EQ(other.out.find("\"denoising\""), std::string::npos) << other.out;
+}
+
+TEST(Program, SmoothsInARegionAlone) {
+  const TemporaryFolder folder;
+  TriangleMesh before = make_sphere(1, 3);
+  for (const bool weighted : {false, true}) {
+    if (weighted) {
+      // What the file pins stays where it is inside the region, too.
+      std::vector<float> weights(before.positions.size(), 1);
+      for (std::size_t v = 0; v < weights.size(); ++v) weights[v] = before.positions[v].x > 0;
+      before.attributes.channels = {{"smoothing_weight", weights}};
+    }
+    const std::string in = folder / "in.ply", out = folder / "out.ply";
+    ASSERT_TRUE(write_mesh(in, before));
+    const Outcome outcome =
+        burnish({"smooth", in, "-o", out, "-m", "one_ring_mean", "--region", "sphere:0,0,1,50cm"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto after = read_mesh(out);
+    ASSERT_TRUE(after);
+    std::size_t moved = 0;
+    for (std::size_t v = 0; v < before.positions.size(); ++v) {
+      const Vec3f p = before.positions[v];
+      const bool free = norm(p - Vec3f{0, 0, 1}) <= 0.5f && (!weighted || p.x > 0);
+      EXPECT_EQ(after->positions[v] != p, free) << v;
+      moved += free;
+    }
+    EXPECT_GT(moved, 10u);
+    EXPECT_NE(outcome.out.find("free_vertices " + std::to_string(moved)), std::string::npos)
+        << outcome.out;
+    EXPECT_EQ(after->attributes.channels, before.attributes.channels);
+  }
+}
+
+TEST(Program, ReconstructsWithARegionToSmooth) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "sphere.ply", make_sphere(1, 3)));
+  const auto made = [&](std::vector<std::string> words) {
+    const std::string out = folder / "out.ply";
+    words.insert(words.begin(), {"reconstruct", folder / "sphere.ply", "-o", out});
+    const Outcome outcome = burnish(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return read_mesh(out);
+  };
+  const auto before = made({"--smooth", "none"});
+  const auto after = made({"--smooth", "one_ring_mean", "--smooth_region", "box:-2,-2,0,2,2,2"});
+  ASSERT_TRUE(before && after);
+  ASSERT_EQ(before->positions.size(), after->positions.size());
+  for (std::size_t v = 0; v < before->positions.size(); ++v) {
+    EXPECT_EQ(after->positions[v] != before->positions[v], before->positions[v].z >= 0) << v;
+  }
+}
+
+TEST(Program, RefusesARegionThatMeansNothing) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "sphere.ply", make_sphere()));
+  const std::string in = folder / "sphere.ply", out = folder / "out.ply";
+  for (const char* region : {"ball:0,0,0,1", "sphere:0,0,0,0", "sphere:9,9,9,1"}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"smooth", in, "-o", out, "-m", "one_ring_mean", "--region"},
+          std::vector<std::string>{"reconstruct", in, "-o", out, "--smooth_region"}}) {
+      std::vector<std::string> all = words;
+      all.emplace_back(region);
+      const Outcome outcome = burnish(all);
+      EXPECT_EQ(outcome.status, 2) << words[0] << " " << region;
+      EXPECT_NE(outcome.err.find(region), std::string::npos) << outcome.err;
+    }
+  }
+  EXPECT_EQ(burnish({"reconstruct", in, "-o", out, "--smooth", "none", "--smooth_region",
+                     "sphere:0,0,0,1"})
+                .status,
+            2);
+  EXPECT_FALSE(fs::exists(out));
+}
+
 TEST(Program, SeveralScansWithoutPosesAreRefusedWithWhatToGive) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "a.ply", make_sphere()));

@@ -51,8 +51,8 @@ double step_at_edge(const TriangleMesh& mesh) {
 /// What is left of the step after sixty passes.
 double step_left(TriangleMesh mesh, const std::optional<NoiseBoundParams>& bound) {
   Record record;
-  const auto done =
-      smooth_in_phases(mesh, {{"one_ring_mean", {{"iterations", "60"}}}}, bound, false, record, {});
+  const auto done = smooth_in_phases(mesh, {{"one_ring_mean", {{"iterations", "60"}}}}, {{}, bound},
+                                     false, record, {});
   EXPECT_TRUE(done);
   return step_at_edge(mesh);
 }
@@ -72,7 +72,7 @@ TEST(BoundedSmoothing, HoldsOverAllPhasesAgainstTheFirst) {
   TriangleMesh mesh = before;
   Record record;
   const std::vector<Method> phases(4, {"one_ring_mean", {{"iterations", "5"}}});
-  ASSERT_TRUE(smooth_in_phases(mesh, phases, NoiseBoundParams{1.5}, true, record, {}));
+  ASSERT_TRUE(smooth_in_phases(mesh, phases, {{}, NoiseBoundParams{1.5}}, true, record, {}));
   ASSERT_TRUE(record.certificate);
   EXPECT_TRUE(record.certificate->holds());
   EXPECT_EQ(record.certificate->c, 1.5);
@@ -97,7 +97,7 @@ TEST(BoundedSmoothing, NeedsToKnowTheNoiseBeforeItBegins) {
   const TriangleMesh given = mesh;
   Record record;
   const auto done =
-      smooth_in_phases(mesh, {{"one_ring_mean", {}}}, NoiseBoundParams{}, true, record, {});
+      smooth_in_phases(mesh, {{"one_ring_mean", {}}}, {{}, NoiseBoundParams{}}, true, record, {});
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().code, ErrorCode::bad_geometry);
   EXPECT_EQ(done.error().where, "bound noise");

@@ -31,6 +31,16 @@ TEST(Recipe, NamesTheMethodWhoseParameterCannotBe) {
   }
 }
 
+TEST(Recipe, ARegionToSmoothNeedsAMethod) {
+  Recipe recipe;
+  recipe.smooth_region = Ball{{0, 0, 0}, 1};
+  EXPECT_TRUE(check(recipe));
+  recipe.smooth.clear();
+  const auto checked = check(recipe);
+  ASSERT_FALSE(checked);
+  EXPECT_EQ(checked.error().code, ErrorCode::invalid_argument);
+}
+
 TEST(Recipe, ChecksEveryStep) {
   const std::vector<Method> unknown{{"no_such_method", {}}};
   for (const auto& spoil : std::initializer_list<std::function<void(Recipe&)>>{

@@ -22,6 +22,14 @@ TEST(Region, ReadsABall) {
   EXPECT_FALSE(contains(*region, {1, 2, 3.051}));
 }
 
+TEST(Region, IsReadBackFromItsText) {
+  for (const char* text : {"box:-0.1,0,0,0.5,0.2,1", "sphere:0.1,-2,3e-09,0.05"}) {
+    const auto region = parse_region(text);
+    ASSERT_TRUE(region);
+    EXPECT_EQ(to_string(*region), text);
+  }
+}
+
 TEST(Region, RefusesWhatIsNeitherAndWhatIsEmpty) {
   for (const char* text : {"", "box", "box:", "box:1,2,3", "cube:0,0,0,1,1,1", "sphere:0,0,0",
                            "box:0,0,0,1,1,1,1", "box:0,0,0,1,1,nan", "box:0,0,0,1,1,0",

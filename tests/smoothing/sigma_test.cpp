@@ -5,6 +5,7 @@
 
 #include "burnish/shapes/shapes.h"
 #include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/laplacian.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
 #include "support/random_mesh.h"
@@ -66,6 +67,13 @@ TEST(Sigma, NeverPromisesMuchMoreThanIsKept) {
         [&](TriangleMesh& mesh) { ASSERT_TRUE(smooth_nearest_farthest(mesh, {iterations})); });
     EXPECT_LT(nearest_farthest, 1.1);
     EXPECT_GT(nearest_farthest, 0.7);
+    for (const auto weights : {LaplacianWeights::uniform, LaplacianWeights::cotangent}) {
+      const double laplacian = error_per_sigma([&](TriangleMesh& mesh) {
+        ASSERT_TRUE(smooth_laplacian(mesh, {.weights = weights, .iterations = iterations}));
+      });
+      EXPECT_LT(laplacian, 1.1);
+      EXPECT_GT(laplacian, 0.6);
+    }
   }
 }
 

@@ -30,7 +30,9 @@ TEST(SmoothingWeights, HoldBackEachVertexByItsOwn) {
     const Vec3d from(before.positions[v]), to(free.positions[v]);
     const Vec3d expected = from + static_cast<double>(weights[v]) * (to - from);
     EXPECT_LT(norm(Vec3d(held.positions[v]) - expected), 2e-7);
-    if (weights[v] == 0) EXPECT_EQ(held.positions[v], before.positions[v]);
+    if (weights[v] == 0) {
+      EXPECT_EQ(held.positions[v], before.positions[v]);
+    }
   }
 }
 

@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
 #include "burnish/shapes/shapes.h"
+#include "burnish/smoothing/equalize.h"
 #include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/humphrey.h"
+#include "burnish/smoothing/laplacian.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
+#include "burnish/smoothing/windowed_sinc.h"
 #include "support/random_mesh.h"
 
 namespace burnish {
@@ -42,6 +46,31 @@ TEST(SmoothingThreads, OneRingMeanGivesTheSameBytes) {
 TEST(SmoothingThreads, GaussianGivesTheSameBytes) {
   expect_same_bytes([](TriangleMesh& mesh, const Context& context) {
     return smooth_gaussian(mesh, {.iterations = kPasses}, context);
+  });
+}
+
+TEST(SmoothingThreads, CotangentsGiveTheSameBytes) {
+  expect_same_bytes([](TriangleMesh& mesh, const Context& context) {
+    return smooth_laplacian(mesh, {.weights = LaplacianWeights::cotangent, .iterations = kPasses},
+                            context);
+  });
+}
+
+TEST(SmoothingThreads, HumphreyGivesTheSameBytes) {
+  expect_same_bytes([](TriangleMesh& mesh, const Context& context) {
+    return smooth_humphrey(mesh, {.iterations = kPasses}, context);
+  });
+}
+
+TEST(SmoothingThreads, WindowedSincGivesTheSameBytes) {
+  expect_same_bytes([](TriangleMesh& mesh, const Context& context) {
+    return smooth_windowed_sinc(mesh, {.iterations = kPasses}, context);
+  });
+}
+
+TEST(SmoothingThreads, EqualizeGivesTheSameBytes) {
+  expect_same_bytes([](TriangleMesh& mesh, const Context& context) {
+    return smooth_equalize(mesh, {.iterations = kPasses}, context);
   });
 }
 

@@ -8,6 +8,7 @@
 #include "burnish/core/topology.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/measure/area_and_volume.h"
+#include "burnish/measure/denoising_error.h"
 #include "burnish/measure/noise_estimate.h"
 #include "burnish/measure/one_ring_table.h"
 #include "burnish/measure/surface_coverage.h"
@@ -74,9 +75,13 @@ Result<void> compare(const Options& options, const TriangleMesh& mesh,
   const auto comparison = compare_to_truth(mesh, *truth, {}, context.part(0.1, 0.5));
   if (!comparison) return comparison.error();
   sections.emplace_back("truth", comparison->facts());
-  const auto coverage = surface_coverage(mesh, *truth, params, context.part(0.5, 1));
+  const auto coverage = surface_coverage(mesh, *truth, params, context.part(0.5, 0.9));
   if (!coverage) return coverage.error();
   sections.emplace_back("coverage", coverage->facts());
+  if (!correspond(mesh, *truth)) return {};
+  const auto denoising = compare_denoised(mesh, *truth, context.part(0.9, 1));
+  if (!denoising) return denoising.error();
+  sections.emplace_back("denoising", denoising->facts());
   return {};
 }
 
@@ -147,11 +152,14 @@ Result<void> measure(const Options& options, const Context& context) {
 
 Action add_measure(CLI::App& app) {
   auto* verb = app.add_subcommand(
-      "measure", "Measure a mesh: topology, triangle quality, size, noise, truth, coverage.");
+      "measure",
+      "Measure a mesh: topology, triangle quality, size, noise, truth, coverage, denoising.");
   auto options = std::make_shared<Options>();
   verb->add_option("IN", options->input, "the mesh: PLY, OBJ, STL, OFF")->required();
   auto* truth =
-      verb->add_option("--truth", options->truth, "a mesh of the true surface to compare with");
+      verb->add_option("--truth", options->truth,
+                       "a mesh of the true surface to compare with; where its triangles are those "
+                       "of IN, also what smoothing left of the noise (denoising)");
   verb->add_option(
           "--spacing", options->spacing,
           "how far the points are from each other, for what is missing (farther than 1 "
@@ -162,7 +170,14 @@ Action add_measure(CLI::App& app) {
                    "print the one-ring of this vertex instead: distances, deviations, angles")
       ->type_name("N");
   verb->add_flag("--json", options->json, "print JSON, in m and rad");
-  verb->footer("Example:\n  burnish measure model.ply --truth true.ply --json");
+  verb->footer(
+      "denoising compares triangle with triangle: normal_error is E_a, the mean angle between the "
+      "normals;\n"
+      "vertex_error is E_v, the area-weighted RMS distance of the vertices from the truth, also in "
+      "its mean\n"
+      "edges and in thousandths of its diagonal; flipped triangles are turned by more than 90 "
+      "degrees.\n"
+      "Example:\n  burnish measure model.ply --truth true.ply --json");
   return [options](const Session&, const Context& c) { return measure(*options, c); };
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> inputs;
-  std::string output, truth, crop, bound;
+  std::string output, truth, crop, smooth_region, bound;
   ReportOutput report;
   FrameTexts frames;
   std::vector<std::string> clean, merge, clean_merged, triangulate, repair, smooth;
@@ -37,11 +37,12 @@ Result<void> lay_over(std::vector<Method>& step, const std::vector<std::string>&
 
 Result<Recipe> recipe_of(const Options& options) {
   Recipe recipe;
-  if (!options.crop.empty()) {
-    const Result<Region> region = parse_region(options.crop);
-    if (!region) return region.error();
-    recipe.crop = *region;
-  }
+  const Result<std::optional<Region>> crop = parse_region_option(options.crop, "--crop");
+  if (!crop) return crop.error();
+  recipe.crop = *crop;
+  const auto smooth_region = parse_region_option(options.smooth_region, "--smooth_region");
+  if (!smooth_region) return smooth_region.error();
+  recipe.smooth_region = *smooth_region;
   const auto bound = bound_of(options.bound);
   if (!bound) return bound.error();
   recipe.bound = *bound;
@@ -121,6 +122,9 @@ Action add_reconstruct(CLI::App& app) {
   add_method(verb, "--repair", options->repair, "repair", "repair the mesh; none: do not");
   add_method(verb, "--smooth", options->smooth, "smooth",
              "smooth the mesh; repeat it for one phase after another; none: do not");
+  verb->add_option(
+      "--smooth_region", options->smooth_region,
+      "smooth only vertices in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");
   add_bound(verb, options->bound);
   verb->footer(
       "Known layouts: 7-Scenes (frame-NNN.depth.png, frame-NNN.pose.txt, camera-intrinsics.txt); "

@@ -11,7 +11,7 @@ namespace burnish::app {
 namespace {
 
 struct Options {
-  std::string input, output, bound;
+  std::string input, output, region, bound;
   ReportOutput report;
   std::vector<std::string> methods;
 };
@@ -20,6 +20,8 @@ Result<void> smooth(const Options& options, const Session& session, const Contex
   const Result<std::vector<Method>> methods = parse_methods(options.methods);
   if (!methods) return methods.error();
   if (auto known = check_smoothing(*methods); !known) return known;
+  const Result<std::optional<Region>> region = parse_region_option(options.region, "--region");
+  if (!region) return region.error();
   const auto bound = bound_of(options.bound);
   if (!bound) return bound.error();
 
@@ -34,8 +36,8 @@ Result<void> smooth(const Options& options, const Session& session, const Contex
   Result<TriangleMesh> mesh = mesh_of(*std::move(file), options.input);
   if (!mesh) return std::move(mesh).error();
   const bool keep_phases = options.report.wanted();
-  if (auto done =
-          smooth_in_phases(*mesh, *methods, *bound, keep_phases, record, context.part(0.2, 0.7));
+  if (auto done = smooth_in_phases(*mesh, *methods, {*region, *bound}, keep_phases, record,
+                                   context.part(0.2, 0.7));
       !done) {
     return done;
   }
@@ -60,13 +62,22 @@ Action add_smooth(CLI::App& app) {
   add_method(verb, "-m,--method", options->methods, "smooth",
              "how; repeat it for one phase after another")
       ->required();
+  verb->add_option(
+      "--region", options->region,
+      "smooth only vertices in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");
   add_bound(verb, options->bound);
   add_report_options(verb, options->report);
   verb->footer(
       "Methods:\n" + methods_help("smooth") +
+      "A float property smoothing_weight of a PLY's vertices says how far each of them follows: 0 "
+      "pins it,\n"
+      "1 leaves it free, 0.3 lets it make three tenths of every move. With --region it counts "
+      "inside.\n"
       "Examples:\n"
-      "  burnish smooth scan.ply -o smooth.ply --method nearest_farthest:iterations=2\n"
-      "  burnish smooth scan.ply -o smooth.ply --method gaussian:iterations=5 --bound noise:c=2");
+      "  burnish smooth scan.ply -o smooth.ply --method one_ring_mean:iterations=5 "
+      "--region sphere:0,0,0.3,5cm\n"
+      "  burnish smooth scan.ply -o smooth.ply --method gaussian:iterations=5 --bound noise:c=2\n"
+      "  burnish smooth scan.ply -o smooth.ply --method nearest_farthest:iterations=2");
   return [options](const Session& s, const Context& c) { return smooth(*options, s, c); };
 }
 

@@ -4,9 +4,21 @@
 #include "burnish/points/remove_flying_pixels.h"
 #include "burnish/points/remove_outliers.h"
 #include "burnish/repair/small_components.h"
+#include "burnish/smoothing/bilateral.h"
+#include "burnish/smoothing/bilateral_normal.h"
+#include "burnish/smoothing/automatic.h"
 #include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/guided_normal.h"
+#include "burnish/smoothing/equalize.h"
+#include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/humphrey.h"
+#include "burnish/smoothing/implicit.h"
+#include "burnish/smoothing/l0.h"
+#include "burnish/smoothing/laplacian.h"
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
+#include "burnish/smoothing/taubin.h"
+#include "burnish/smoothing/windowed_sinc.h"
 #include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/fan_cloud_mesh.h"
 #include "burnish/triangulation/global.h"
@@ -61,6 +73,10 @@ std::span<const RepairOperation> repair_operations() {
 
 std::span<const SmoothOperation> smooth_operations() {
   static const std::vector<SmoothOperation> list{
+      edit_operation("auto", smooth_auto,
+                     "Removes the noise that is there: a small network chooses among normals that "
+                     "classical filters give.",
+                     "wang_liu_tong_2016"),
       edit_operation(
           "nearest_farthest", smooth_nearest_farthest,
           "Mean of the one-ring in which the nearest and the farthest neighbour count twice.",
@@ -71,6 +87,35 @@ std::span<const SmoothOperation> smooth_operations() {
           "gaussian", smooth_gaussian,
           "Mean of the one-ring and the vertex itself, weighted by a Gaussian of the distance.",
           "ozbay_cinar"),
+      edit_operation("bilateral", smooth_bilateral,
+                     "Each vertex moves along its normal to near vertices of about its height.",
+                     "fleishman_2003"),
+      edit_operation("bilateral_normal", smooth_bilateral_normal,
+                     "Face normals are averaged with like ones around them, vertices follow them.",
+                     "zheng_2011"),
+      edit_operation("guided_normal", smooth_guided_normal,
+                     "Face normals are filtered along the patches that are most of one piece.",
+                     "zhang_2015"),
+      edit_operation("laplacian", smooth_laplacian,
+                     "Part of the way to the mean of the one-ring, by equal or cotangent weights.",
+                     "desbrun_1999"),
+      edit_operation("taubin", smooth_taubin,
+                     "A step to the mean of the one-ring and one back: low-pass, no shrinkage.",
+                     "taubin_1995"),
+      edit_operation("windowed_sinc", smooth_windowed_sinc,
+                     "A low-pass filter with a sharp cut-off; no shrinkage.",
+                     "taubin_zhang_golub_1996"),
+      edit_operation("humphrey", smooth_humphrey,
+                     "Mean of the one-ring, then pushed back by what the one-ring moved (HC).",
+                     "vollmer_1999"),
+      edit_operation("implicit", smooth_implicit,
+                     "Curvature flow in steps of any length, by solving a system of equations.",
+                     "desbrun_1999"),
+      edit_operation("l0", smooth_l0,
+                     "As few bent edges as possible: flattens noisy facets, keeps their edges.",
+                     "he_schaefer_2013"),
+      edit_operation("equalize", smooth_equalize,
+                     "Evens the distances to neighbours within the surface; smooths nothing.", ""),
   };
   return list;
 }

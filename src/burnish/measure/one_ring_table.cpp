@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "burnish/measure/angle_between.h"
+
 namespace burnish {
 namespace {
 
@@ -81,7 +83,7 @@ Result<OneRingTable> one_ring_table(const TriangleMesh& mesh, std::uint32_t vert
     add(corner.from);
     add(corner.to);
     const Vec3d a = offset(corner.from), b = offset(corner.to);
-    corner.angle = std::atan2(norm(cross(a, b)), dot(a, b));
+    corner.angle = angle_between(a, b);
   }
   if (table.corners.empty()) return table;
 

@@ -7,6 +7,7 @@
 
 #include "burnish/core/adjacency.h"
 #include "burnish/core/edges.h"
+#include "burnish/measure/angle_between.h"
 
 namespace burnish {
 namespace {
@@ -42,7 +43,7 @@ void measure_angles(const TriangleMesh& mesh, TriangleQuality& quality) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3d a = p[(i + 1) % 3] - p[i], b = p[(i + 2) % 3] - p[i];
       if (squared_norm(a) == 0 || squared_norm(b) == 0) continue;
-      all.push_back(std::atan2(norm(cross(a, b)), dot(a, b)));
+      all.push_back(angle_between(a, b));
       least = std::min(least, all.back());
     }
     least_of_triangles.push_back(least < std::numbers::pi ? least : 0);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "burnish/base/parallel.h"
+#include "burnish/measure/angle_between.h"
 #include "burnish/measure/histogram.h"
 #include "burnish/measure/surface_samples.h"
 #include "burnish/spatial/closest_point.h"
@@ -29,10 +30,6 @@ Distances summary(std::vector<double> distances) {
   result.rms = std::sqrt(squares / count);
   result.p95 = quantile(distances, 0.95);
   return result;
-}
-
-double angle_between(const Vec3d& a, const Vec3d& b) {
-  return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
 /// found(i) is told what is closest to point(i).

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "burnish/base/version.h"
+#include "burnish/pipeline/confinement.h"
 #include "burnish/pipeline/recipe.h"
 
 namespace burnish {
@@ -38,17 +40,17 @@ auto recorded(std::string_view verb, const Result<const Op*>& operation, const M
   return result;
 }
 
-/// Runs methods that edit `edited`, one after another.
-template <class T, class Find, class After>
-Result<void> edit(std::string_view verb, T& edited, const std::vector<Method>& methods, Find find,
-                  Record& record, const Context& context, After after) {
+/// Runs methods one after another: `run` calls an operation, `after` is told when it is done.
+template <class Find, class Run, class After>
+Result<void> run_all(std::string_view verb, const std::vector<Method>& methods, Find find,
+                     Record& record, const Context& context, Run run, After after) {
   const double count = static_cast<double>(methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const double done = static_cast<double>(i);
     const Context share = context.part(done / count, (done + 1) / count);
     const auto facts = recorded(
         verb, find(methods[i].name), methods[i], record, share,
-        [&](const auto& operation) { return operation.run(edited, methods[i].settings, share); },
+        [&](const auto& operation) { return run(operation, methods[i].settings, share); },
         [](const Facts& measured) { return measured; });
     if (!facts) return facts.error();
     if (auto ok = after(i); !ok) return ok;
@@ -56,7 +58,30 @@ Result<void> edit(std::string_view verb, T& edited, const std::vector<Method>& m
   return {};
 }
 
-constexpr auto kNothing = [](std::size_t) { return Result<void>(); };
+/// Runs methods that edit `edited`, one after another.
+template <class T, class Find>
+Result<void> edit(std::string_view verb, T& edited, const std::vector<Method>& methods, Find find,
+                  Record& record, const Context& context) {
+  return run_all(
+      verb, methods, find, record, context,
+      [&](const auto& operation, const Settings& settings, const Context& share) {
+        return operation.run(edited, settings, share);
+      },
+      [](std::size_t) { return Result<void>(); });
+}
+
+/// The record's line on a region to smooth.
+Step confining(const Region& region, const std::vector<float>& weights) {
+  const auto free =
+      weights.size() - static_cast<std::size_t>(std::count(weights.begin(), weights.end(), 0.0f));
+  return {"confine",
+          "region",
+          {{"region", to_string(region)}},
+          {{"free_vertices", static_cast<double>(free), ""}},
+          0,
+          {{"region", "region", "", "", "", "where vertices are free to move"}}};
+}
+
 constexpr auto kFactsOfCreated = [](const auto& created) { return created.facts; };
 
 Error in_bound(Error error) {
@@ -90,7 +115,7 @@ Result<void> certify(const TriangleMesh& before, const TriangleMesh& mesh, doubl
 
 Result<void> clean_cloud(PointCloud& cloud, const std::vector<Method>& methods, Record& record,
                          const Context& context) {
-  return edit("clean", cloud, methods, find_clean, record, context, kNothing);
+  return edit("clean", cloud, methods, find_clean, record, context);
 }
 
 Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method& method,
@@ -125,33 +150,48 @@ Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& me
 
 Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods, Record& record,
                          const Context& context) {
-  return edit("repair", mesh, methods, find_repair, record, context, kNothing);
+  return edit("repair", mesh, methods, find_repair, record, context);
 }
 
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
-                              const std::optional<NoiseBoundParams>& bound, bool keep_phases,
-                              Record& record, const Context& context) {
+                              const SmoothingLimits& limits, bool keep_phases, Record& record,
+                              const Context& context) {
+  std::vector<float> weights;
+  if (limits.region) {
+    Result<std::vector<float>> inside = weights_inside(mesh, *limits.region);
+    if (!inside) return std::move(inside).error();
+    weights = *std::move(inside);
+    record.steps.push_back(confining(*limits.region, weights));
+  }
   TriangleMesh before;
-  if (bound) {
+  if (limits.bound) {
     if (auto known = check_noise(mesh); !known) return in_bound(known.error());
     before = mesh;
   }
-  if (keep_phases) record.phases.push_back({"original", mesh, {}});
+  const auto keep_phase = [&](std::string name) {
+    if (keep_phases) record.phases.push_back({std::move(name), mesh, {}});
+  };
+  keep_phase("original");
+  const auto smooth = [&](const SmoothOperation& operation, const Settings& settings,
+                          const Context& share) {
+    if (!limits.region) return operation.run(mesh, settings, share);
+    const TemporaryWeights confined(mesh, weights);
+    return operation.run(mesh, settings, share);
+  };
   Context silent = context;
   silent.sink = nullptr;  // the bar belongs to the phases; to bind one takes next to no time
   const auto after_phase = [&](std::size_t i) -> Result<void> {
-    if (bound) {
-      if (auto done = put_back(before, mesh, *bound, record, silent); !done) {
-        return done;
-      }
+    if (limits.bound) {
+      if (auto done = put_back(before, mesh, *limits.bound, record, silent); !done) return done;
     }
-    if (keep_phases) record.phases.push_back({fmt::format("phase {}", i + 1), mesh, {}});
+    keep_phase(fmt::format("phase {}", i + 1));
     return {};
   };
-  if (auto done = edit("smooth", mesh, methods, find_smooth, record, context, after_phase); !done) {
+  if (auto done = run_all("smooth", methods, find_smooth, record, context, smooth, after_phase);
+      !done) {
     return done;
   }
-  return bound ? certify(before, mesh, bound->c, record) : Result<void>();
+  return limits.bound ? certify(before, mesh, limits.bound->c, record) : Result<void>();
 }
 
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs) {

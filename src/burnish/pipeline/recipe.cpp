@@ -49,6 +49,11 @@ Result<void> check(const Recipe& recipe) {
   if (recipe.bound) {
     if (auto valid = NoiseBoundParams::schema().check(*recipe.bound); !valid) return valid;
   }
+  if (recipe.smooth_region && recipe.smooth.empty()) {
+    return Error{ErrorCode::invalid_argument,
+                 "a region to smooth is given, but no method to smooth with",
+                 {}};
+  }
   return check_smoothing(recipe.smooth);
 }
 

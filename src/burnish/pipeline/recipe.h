@@ -19,6 +19,7 @@ struct Recipe {
   std::vector<Method> repair{{"small_components", {}}};
   std::vector<Method> smooth{{"nearest_farthest", {}},
                              {"nearest_farthest", {}}};  ///< phase by phase
+  std::optional<Region> smooth_region;    ///< world coordinates; only vertices inside are smoothed
   std::optional<NoiseBoundParams> bound;  ///< of the smoothing; none: vertices go where it wants
 };
 
@@ -28,7 +29,8 @@ inline constexpr const char* kNoiseBound = "noise";
 /// Reads "noise" or "noise:c=2". Errors: invalid_argument.
 Result<NoiseBoundParams> parse_bound(std::string_view text);
 
-/// Whether every method is known and its parameters can be. Errors: invalid_argument.
+/// Whether every method is known and its parameters can be, and smooth_region has something to
+/// confine. Errors: invalid_argument.
 Result<void> check(const Recipe& recipe);
 
 /// The same for a list of smoothing methods alone.

@@ -60,4 +60,14 @@ Result<Region> parse_region(std::string_view text) {
   return malformed;
 }
 
+std::string to_string(const Region& region) {
+  if (const Box* box = std::get_if<Box>(&region)) {
+    return fmt::format("box:{},{},{},{},{},{}", box->low.x, box->low.y, box->low.z, box->high.x,
+                       box->high.y, box->high.z);
+  }
+  const Ball& ball = std::get<Ball>(region);
+  return fmt::format("sphere:{},{},{},{}", ball.centre.x, ball.centre.y, ball.centre.z,
+                     ball.radius);
+}
+
 }  // namespace burnish

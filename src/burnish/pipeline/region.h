@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -27,5 +28,8 @@ bool contains(const Region& region, const Vec3d& point);
 /// Reads "box:x0,y0,z0,x1,y1,z1" or "sphere:x,y,z,radius"; each number may carry a unit (20cm).
 /// Errors: invalid_argument with the text and the forms that would do.
 Result<Region> parse_region(std::string_view text);
+
+/// The text, in metres, that parse_region reads back as `region`.
+std::string to_string(const Region& region);
 
 }  // namespace burnish

@@ -111,8 +111,9 @@ Result<void> run(const ComparedMethod& method, const Table1Model& model, Table1R
     const Result<Method> smooth = parse_method(method.smooth);
     if (!smooth) return smooth.error();
     if (auto done = smooth_in_phases(*mesh, {*smooth}, {}, false, record, context.part(0.8, 1));
-        !done)
+        !done) {
       return done;
+    }
     row.smoothing = std::min(row.smoothing, record.steps.back().seconds);
   }
   row.triangulation = std::min(row.triangulation, record.steps.front().seconds);

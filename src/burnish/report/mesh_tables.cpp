@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "burnish/core/topology.h"
+#include "burnish/measure/angle_between.h"
 #include "burnish/measure/area_and_volume.h"
 #include "burnish/measure/triangle_quality.h"
 #include "burnish/report/numbers.h"
@@ -65,8 +66,7 @@ double value_at(std::vector<T>& values, double share) {
 }
 
 double angle_at(const Vec3d& corner, const Vec3d& a, const Vec3d& b) {
-  const Vec3d u = a - corner, v = b - corner;
-  return std::atan2(norm(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi;
+  return angle_between(a - corner, b - corner) * 180 / std::numbers::pi;
 }
 
 /// How many triangles close a hole, and how much of the surface they are.

@@ -132,7 +132,7 @@ Result<SmoothingReport> smooth_nearest_farthest(TriangleMesh& mesh,
       mesh,
       {.iterations = params.iterations,
        .boundary = params.boundary,
-       .damping = params.damping,
+       .damping = {params.damping},
        .in_place = params.order == UpdateOrder::in_place},
       context,
       [rounding](const RingView& ring, std::span<double> weights, std::span<double> distances) {

@@ -1,7 +1,5 @@
 #include "burnish/smoothing/one_ring_mean.h"
 
-#include <algorithm>
-
 #include "burnish/smoothing/ring_filter.h"
 
 namespace burnish {
@@ -20,10 +18,7 @@ Result<SmoothingReport> smooth_one_ring_mean(TriangleMesh& mesh, const OneRingMe
                                              const Context& context) {
   if (auto valid = OneRingMeanParams::schema().check(params); !valid) return valid.error();
   return filter_rings(mesh, {.iterations = params.iterations, .boundary = params.boundary}, context,
-                      [](const RingView&, std::span<double> weights, std::span<double>) {
-                        std::fill(weights.begin(), weights.end(), 1.0);
-                        return 1.0;
-                      });
+                      EqualWeights{.own = 1});
 }
 
 }  // namespace burnish

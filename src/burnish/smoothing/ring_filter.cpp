@@ -5,26 +5,6 @@
 
 namespace burnish {
 
-Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
-  if (boundary == BoundaryRule::free) return one_rings(mesh);
-  const Adjacency ends = edge_ends(mesh);
-  std::vector<std::uint32_t> offsets{0}, items;
-  offsets.reserve(ends.size() + 1);
-  items.reserve(ends.items().size() / 2);
-  for (std::size_t v = 0; v < ends.size(); ++v) {
-    const std::size_t begin = items.size();
-    std::size_t along = begin;  // the neighbours along the boundary come to stand before this
-    for_each_neighbour(ends.row(v), [&](std::uint32_t w, std::size_t triangles) {
-      items.push_back(w);
-      if (triangles != 2) items[along++] = w;
-    });
-    const bool on_boundary = along > begin;
-    if (on_boundary) items.resize(boundary == BoundaryRule::along_boundary ? along : begin);
-    offsets.push_back(static_cast<std::uint32_t>(items.size()));
-  }
-  return {std::move(offsets), std::move(items)};
-}
-
 SigmaFilter::SigmaFilter(const std::vector<float>& sigma)
     : variance_(sigma.begin(), sigma.end()), averaged_(sigma.size(), 1) {
   for (double& v : variance_) v *= v;
@@ -54,26 +34,6 @@ std::vector<float> SigmaFilter::take() const {
     sigma[v] = static_cast<float>(std::sqrt(variance_[v] / averaged_[v]));
   }
   return sigma;
-}
-
-std::vector<Vec3d> in_double(const std::vector<Vec3f>& positions) {
-  std::vector<Vec3d> result(positions.size());
-  std::transform(positions.begin(), positions.end(), result.begin(),
-                 [](const Vec3f& p) { return Vec3d(p); });
-  return result;
-}
-
-std::vector<Vec3f> in_float(const std::vector<Vec3d>& positions) {
-  std::vector<Vec3f> result(positions.size());
-  std::transform(positions.begin(), positions.end(), result.begin(),
-                 [](const Vec3d& p) { return Vec3f(p); });
-  return result;
-}
-
-std::size_t longest_row(const Adjacency& rows) {
-  std::size_t longest = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) longest = std::max(longest, rows.row(i).size());
-  return longest;
 }
 
 bool for_in_order(const Context& context, std::size_t count,

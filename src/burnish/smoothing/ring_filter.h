@@ -1,15 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "burnish/base/parallel.h"
-#include "burnish/core/adjacency.h"
-#include "burnish/smoothing/smoothing.h"
-#include "burnish/smoothing/smoothing_weights.h"
+#include "burnish/smoothing/ring_mesh.h"
 
 // What the smoothings that move vertices to weighted means of their one-rings share. Not part of
 // the library's interface.
@@ -19,19 +17,30 @@ namespace burnish {
 /// together before anything is computed of them: what follows then runs over a few numbers in a
 /// row.
 struct RingView {
+  std::uint32_t vertex;
   Vec3d centre;
-  std::span<const Vec3d> neighbours;
+  std::span<const std::uint32_t> ids;  ///< who the neighbours are, rising
+  std::span<const Vec3d> neighbours;   ///< where they are
+};
+
+/// Weighs all neighbours alike.
+struct EqualWeights {
+  double own = 0;  ///< the vertex's own weight
+
+  double operator()(const RingView&, std::span<double> weights, std::span<double>) const {
+    std::fill(weights.begin(), weights.end(), 1.0);
+    return own;
+  }
 };
 
 struct RingPasses {
   int iterations = 1;
   BoundaryRule boundary = BoundaryRule::fixed;
-  double damping = 0;     ///< the share of each move that is held back
+  /// The share of each move that is held back. One iteration makes one pass for each of these: 0
+  /// goes all the way to the mean, 0.5 half of it, and above 1 it is away from the mean.
+  std::vector<double> damping{0};
   bool in_place = false;  ///< later vertices see the new positions of earlier ones
 };
-
-/// The neighbours that each vertex is smoothed with; none where it is to stay.
-Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary);
 
 /// How sigma follows. One pass over independent errors gives sigma'^2 = sum w_j^2 sigma_j^2. From
 /// the second pass on the errors of neighbours are correlated, and the same formula would promise
@@ -56,33 +65,34 @@ class SigmaFilter {
   std::vector<double> averaged_;         ///< how many independent errors are averaged
 };
 
-std::vector<Vec3d> in_double(const std::vector<Vec3f>& positions);
-std::vector<Vec3f> in_float(const std::vector<Vec3d>& positions);
-std::size_t longest_row(const Adjacency& rows);
-
 /// Like parallel_for, but from the first index to the last.
 bool for_in_order(const Context& context, std::size_t count,
                   const std::function<void(IndexRange)>& body);
 
 /// Jacobi passes over the one-rings: every vertex moves to the weighted mean of its ring and
-/// itself, all of one pass computed from the positions before it, in double from the first pass to
-/// the last. `weigh(ring, weights, scratch)` fills one weight per neighbour and returns the
+/// itself, all of one pass computed from the positions before it, in double from the first
+/// pass to the last. `weigh(ring, weights, scratch)` fills one weight per neighbour and returns the
 /// vertex's own; their sum must be positive; `scratch` is as long as `weights`. Vertices without
 /// neighbours under the boundary rule stay, and smoothing_weights.h holds others back. Normals that
-/// are there are computed anew, sigma follows SigmaFilter, all other attributes stay as they are.
-/// On error or cancellation `mesh` is unchanged. O(iterations * #T).
+/// are there are computed anew, all other attributes stay as they are but sigma: it follows
+/// SigmaFilter where all moves are towards the mean. Where one is not, what one pass averages the
+/// next undoes in part, and SigmaFilter would promise far too much: sigma stays, which is on the
+/// safe side of every filter that amplifies nothing. On error or cancellation `mesh` is unchanged.
+/// O(iterations * #T).
 template <class Weigh>
 Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passes,
                                      const Context& context, const Weigh& weigh) {
-  if (auto sound = check(mesh); !sound) return sound.error();
-  const Result<std::vector<float>> follows = smoothing_weights(mesh);
-  if (!follows) return follows.error();
-  const Adjacency rings = smoothing_rings(mesh, passes.boundary);
+  Result<RingMesh> work = ring_mesh(mesh, passes.boundary);
+  if (!work) return work.error();
+  const Adjacency& rings = work->rings;
   const std::size_t longest = longest_row(rings);
-  std::vector<Vec3d> positions = in_double(mesh.positions), next = positions;
-  SigmaFilter sigma(mesh.attributes.sigma);
+  std::vector<Vec3d>& positions = work->positions;
+  std::vector<Vec3d> next = positions;
+  const bool averages = *std::max_element(passes.damping.begin(), passes.damping.end()) <= 1;
+  SigmaFilter sigma(averages ? mesh.attributes.sigma : std::vector<float>{});
   // The weights always come from the positions before the pass, as in the printed pseudo-code.
   const std::vector<Vec3d>& source = passes.in_place ? next : positions;
+  double damping = 0;
 
   const auto move = [&](IndexRange range) {
     std::vector<double> buffer(2 * longest);
@@ -96,8 +106,9 @@ Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passe
       for (std::size_t i = 0; i < row.size(); ++i) ring[i] = positions[row[i]];
       const std::span<const Vec3d> neighbours(ring.data(), row.size());
       const std::span<double> weights(buffer.data(), row.size());
-      const double own = weigh(RingView{positions[v], neighbours}, weights,
-                               std::span<double>(buffer.data() + longest, row.size()));
+      const double own =
+          weigh(RingView{static_cast<std::uint32_t>(v), positions[v], row, neighbours}, weights,
+                std::span<double>(buffer.data() + longest, row.size()));
       double total = own;
       Vec3d sum = own * source[v];
       if (passes.in_place) {
@@ -107,8 +118,7 @@ Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passe
         total += weights[i];
         sum += weights[i] * ring[i];
       }
-      const double hold =
-          follows->empty() ? passes.damping : 1 - (1 - passes.damping) * (*follows)[v];
+      const double hold = work->follows.empty() ? damping : 1 - (1 - damping) * work->follow(v);
       next[v] = (1 - hold) * (sum / total) + hold * source[v];
       if (sigma.wanted()) {
         const double share = (1 - hold) / total;
@@ -116,13 +126,10 @@ Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passe
       }
     }
   };
-  // To wake other threads for a few milliseconds of work costs more than they save.
-  constexpr double kSmall = 4e6;
-  const bool small = static_cast<double>(rings.items().size()) * passes.iterations < kSmall;
-  for (int pass = 0; pass < passes.iterations; ++pass) {
-    Context share = context.part(static_cast<double>(pass) / passes.iterations,
-                                 (pass + 1.0) / passes.iterations);
-    if (small) share.threads = 1;
+  const int count = passes.iterations * static_cast<int>(passes.damping.size());
+  for (int pass = 0; pass < count; ++pass) {
+    damping = passes.damping[static_cast<std::size_t>(pass) % passes.damping.size()];
+    const Context share = part_of_pass(context, pass, count, rings);
     if (passes.in_place) next = positions;
     const bool complete = passes.in_place ? for_in_order(share, positions.size(), move)
                                           : parallel_for(share, positions.size(), move);
@@ -131,13 +138,10 @@ Result<SmoothingReport> filter_rings(TriangleMesh& mesh, const RingPasses& passe
     sigma.finish_pass();
   }
 
-  std::vector<Vec3f> moved = in_float(positions);
-  std::vector<float> moved_sigma = sigma.take();
-  std::swap(mesh.positions, moved);
-  mesh.attributes.sigma = std::move(moved_sigma);
-  if (!mesh.attributes.normals.empty()) mesh.attributes.normals = vertex_normals(mesh);
-  context.progress(1);
-  return report_moves(moved, mesh, passes.iterations);
+  std::vector<float> moved_sigma = sigma.wanted() ? sigma.take() : mesh.attributes.sigma;
+  Result<SmoothingReport> report = commit_positions(mesh, positions, passes.iterations, context);
+  if (report) mesh.attributes.sigma = std::move(moved_sigma);
+  return report;
 }
 
 }  // namespace burnish
