@@ -58,10 +58,22 @@ void keep_notes(const std::string& path, const GeometryFile& file, Record& recor
     record.notes.push_back(fmt::format("{}: {}", path, note));
 }
 
+void say_certificate(const Session& session, const Record& record) {
+  for (const std::string& line : comments_of(record)) say(session, line);
+}
+
+std::vector<std::string> comments_of(const Record& record) {
+  if (!record.certificate) return {};
+  std::vector<std::string> lines = sentences(*record.certificate);
+  for (std::string& line : lines) line = "noise bound: " + line;
+  return lines;
+}
+
 Result<void> save(const std::string& path, const TriangleMesh& mesh, const Session& session,
-                  const Context& context) {
+                  const Context& context, std::vector<std::string> comments) {
   context.stage("writing " + path);
-  return finish_writing(write_mesh(path, mesh, {}, context), path, session);
+  return finish_writing(write_mesh(path, mesh, {.comments = std::move(comments)}, context), path,
+                        session);
 }
 
 Result<void> finish_writing(const Result<WriteReport>& written, const std::string& path,

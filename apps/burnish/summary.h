@@ -15,9 +15,15 @@ void say_comparisons(const Session& session, const Record& record);
 /// Prints "<name>: 1234 vertices, ..." with what matters of how the mesh hangs together.
 void say_mesh(const Session& session, const std::string& name, const TriangleMesh& mesh);
 
-/// Writes a mesh and prints what its format could not hold.
+/// Prints what the record certifies of the noise bound, where there was one.
+void say_certificate(const Session& session, const Record& record);
+
+/// Writes a mesh, with `comments` where its format has any, and prints what it could not hold.
 Result<void> save(const std::string& path, const TriangleMesh& mesh, const Session& session,
-                  const Context& context);
+                  const Context& context, std::vector<std::string> comments = {});
+
+/// What a file says of how it came about.
+std::vector<std::string> comments_of(const Record& record);
 
 /// Keeps what the reader of `path` left out or changed for the summary and the report.
 void keep_notes(const std::string& path, const GeometryFile& file, Record& record);

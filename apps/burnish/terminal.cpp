@@ -82,6 +82,8 @@ int exit_status(ErrorCode code) {
       return 7;
     case ErrorCode::out_of_memory:
       return 8;
+    case ErrorCode::refuted:
+      return 9;
     case ErrorCode::cancelled:
       return 130;
   }

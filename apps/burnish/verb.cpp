@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "burnish/pipeline/recipe.h"
+
 namespace burnish::app {
 namespace {
 
@@ -52,6 +54,23 @@ CLI::Option* add_method(CLI::App* verb, const std::string& name, std::vector<std
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->default_str("")
       ->description(help + fmt::format(" (burnish list {})", family));
+}
+
+void add_bound(CLI::App* verb, std::string& bound) {
+  const FieldInfo c = NoiseBoundParams::schema().fields().front();
+  verb->add_option("--bound", bound,
+                   fmt::format("noise[:{}={}]: no vertex goes farther than {} standard deviations "
+                               "from its measurement, whatever the method; needs noise or sigma "
+                               "of every vertex",
+                               c.key, c.default_value, c.key))
+      ->type_name("BOUND");
+}
+
+Result<std::optional<NoiseBoundParams>> bound_of(const std::string& text) {
+  if (text.empty()) return std::optional<NoiseBoundParams>();
+  const Result<NoiseBoundParams> params = parse_bound(text);
+  if (!params) return params.error();
+  return std::optional(*params);
 }
 
 Result<std::vector<Method>> parse_methods(const std::vector<std::string>& texts) {

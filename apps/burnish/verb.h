@@ -14,6 +14,7 @@
 #include "burnish/base/result.h"
 #include "burnish/catalogue/operations.h"
 #include "burnish/pipeline/region.h"
+#include "burnish/smoothing/noise_bound.h"
 
 namespace burnish::app {
 
@@ -32,6 +33,7 @@ using Action = std::function<Result<void>(const Session&, const Context&)>;
 Action add_reconstruct(CLI::App& app);
 Action add_triangulate(CLI::App& app);
 Action add_smooth(CLI::App& app);
+Action add_verify(CLI::App& app);
 Action add_convert(CLI::App& app);
 Action add_measure(CLI::App& app);
 Action add_simulate(CLI::App& app);
@@ -50,6 +52,12 @@ std::string methods_help(std::string_view family);
 /// Adds an option that takes NAME[:key=value,...]; the method is looked up when the verb runs.
 CLI::Option* add_method(CLI::App* verb, const std::string& name, std::vector<std::string>& methods,
                         std::string_view family, const std::string& help);
+
+/// Adds --bound to a verb that smooths.
+void add_bound(CLI::App* verb, std::string& bound);
+
+/// What --bound says; nothing where it was not given. Errors: invalid_argument.
+Result<std::optional<NoiseBoundParams>> bound_of(const std::string& text);
 
 /// The methods written in `texts`. Errors: invalid_argument.
 Result<std::vector<Method>> parse_methods(const std::vector<std::string>& texts);

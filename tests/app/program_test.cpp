@@ -7,6 +7,7 @@
 #include "burnish/core/topology.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/shapes/shapes.h"
+#include "support/random_mesh.h"
 #include "support/subprocess.h"
 #include "support/test_data.h"
 
@@ -45,8 +46,8 @@ TEST(Program, SaysItsVersion) {
 }
 
 TEST(Program, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb : {"reconstruct", "triangulate", "smooth", "convert", "measure", "simulate",
-                           "reproduce", "list"}) {
+  for (const char* verb : {"reconstruct", "triangulate", "smooth", "verify", "convert", "measure",
+                           "simulate", "reproduce", "list"}) {
     const Outcome outcome = burnish({verb, "--help"});
     EXPECT_EQ(outcome.status, 0) << verb;
     EXPECT_NE(outcome.out.find(std::string("burnish ") + verb), std::string::npos) << outcome.out;
@@ -185,6 +186,87 @@ TEST(Program, QuietPrintsNothing) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out + outcome.err, "");
   EXPECT_TRUE(read_mesh(folder / "out.ply"));
+}
+
+/// A bumpy sphere that knows how far its vertices may be off.
+TriangleMesh measured_sphere() {
+  TriangleMesh mesh = test::with_noise(make_sphere(1, 3), 0.02, 1);
+  for (const Vec3f& p : mesh.positions) {
+    mesh.attributes.noise.push_back({Vec3f(normalized(Vec3d(p))), 0.01f, 0.004f});
+  }
+  return mesh;
+}
+
+TEST(Program, BindsASmoothingToTheNoiseAndVerifiesIt) {
+  const TemporaryFolder folder;
+  const std::string before = folder / "before.ply", bound = folder / "bound.ply",
+                    free = folder / "free.ply";
+  ASSERT_TRUE(write_mesh(before, measured_sphere()));
+  const std::string method = "gaussian:iterations=5";
+  const Outcome smoothed = burnish({"smooth", before, "-o", bound, "-m", method, "--bound",
+                                    "noise:c=1.5", "--report", folder / "report.html"});
+  ASSERT_EQ(smoothed.status, 0) << smoothed.err;
+  for (const std::string& text :
+       {smoothed.out, bytes_of(bound), bytes_of(folder / "report.html")}) {
+    EXPECT_NE(text.find("farther than c = 1.5 standard deviations"), std::string::npos);
+    EXPECT_NE(text.find("not covered: noise that neighbouring"), std::string::npos);
+  }
+  const Outcome held = burnish({"verify", before, bound, "--c", "1.5"});
+  EXPECT_EQ(held.status, 0) << held.err;
+  EXPECT_NE(held.out.find("largest ratio 1.4999"), std::string::npos) << held.out;
+  const Outcome narrower = burnish({"verify", before, bound, "--c", "1.4"});
+  EXPECT_EQ(narrower.status, 9);
+
+  ASSERT_EQ(burnish({"smooth", before, "-o", free, "-m", method}).status, 0);
+  const Outcome refuted = burnish({"verify", before, free});
+  EXPECT_EQ(refuted.status, 9);
+  EXPECT_EQ(refuted.out, "");
+  for (const char* part : {"free.ply", "vertex ", "one deviation is 0.0", "ratio "})
+    EXPECT_NE(refuted.err.find(part), std::string::npos) << refuted.err;
+  const Outcome json = burnish({"verify", before, free, "--json"});
+  EXPECT_EQ(json.status, 9);
+  for (const char* part : {"\"holds\": false", "\"c\": 2.0", "\"worst_displacement_m\": 0."})
+    EXPECT_NE(json.out.find(part), std::string::npos) << json.out;
+}
+
+TEST(Program, VerifyCatchesOneFloatStepInAFile) {
+  const TemporaryFolder folder;
+  TriangleMesh mesh = make_box();
+  mesh.attributes.sigma.assign(mesh.positions.size(), 0.125f);
+  const std::string before = folder / "before.ply", after = folder / "after.ply";
+  ASSERT_TRUE(write_mesh(before, mesh));
+  float& z = mesh.positions[3].z;
+  z += 0.25f;  // two deviations to the bit
+  ASSERT_TRUE(write_mesh(after, mesh));
+  EXPECT_EQ(burnish({"verify", before, after}).status, 0);
+  z = std::nextafter(z, 10.f);
+  ASSERT_TRUE(write_mesh(after, mesh));
+  const Outcome outcome = burnish({"verify", before, after});
+  EXPECT_EQ(outcome.status, 9);
+  EXPECT_NE(outcome.err.find("vertex 3"), std::string::npos) << outcome.err;
+}
+
+TEST(Program, RefusesToBindOrVerifyWhatItCannot) {
+  const TemporaryFolder folder;
+  const std::string plain = folder / "plain.ply", known = folder / "known.ply",
+                    out = folder / "out.ply";
+  ASSERT_TRUE(write_mesh(plain, make_box()));
+  ASSERT_TRUE(write_mesh(known, measured_sphere()));
+  const Outcome unknown =
+      burnish({"smooth", plain, "-o", out, "-m", "one_ring_mean", "--bound", "noise"});
+  EXPECT_EQ(unknown.status, 6);
+  EXPECT_NE(unknown.err.find("give every vertex a 'sigma'"), std::string::npos) << unknown.err;
+  for (const char* bound : {"sigma", "noise:c=-1", "noise:c"}) {
+    EXPECT_EQ(burnish({"smooth", known, "-o", out, "-m", "one_ring_mean", "--bound", bound}).status,
+              2)
+        << bound;
+  }
+  EXPECT_FALSE(fs::exists(out));
+  const Outcome others = burnish({"verify", known, plain});
+  EXPECT_EQ(others.status, 6);
+  EXPECT_NE(others.err.find("vertices before and "), std::string::npos) << others.err;
+  EXPECT_EQ(burnish({"verify", plain, plain}).status, 6);
+  EXPECT_EQ(burnish({"verify", known, known, "--c", "-1"}).status, 2);
 }
 
 TEST(Program, SmoothsInPhasesOneAfterAnother) {

@@ -51,6 +51,7 @@ TEST(Error, EveryCodeHasItsOwnName) {
       {ErrorCode::bad_geometry, "bad_geometry"},
       {ErrorCode::io_failure, "io_failure"},
       {ErrorCode::out_of_memory, "out_of_memory"},
+      {ErrorCode::refuted, "refuted"},
       {ErrorCode::cancelled, "cancelled"}};
   for (const auto& [code, name] : names) EXPECT_EQ(to_string(code), name);
 }

@@ -78,6 +78,8 @@ PointCloud scan(const Vec3d& eye, std::uint64_t seed) {
                                         : Vec3f(eye + ray * seen.depth));
       cloud.attributes.normals.push_back(Vec3f(seen.normal));
       cloud.attributes.sigma.push_back(static_cast<float>(sigma));
+      cloud.attributes.noise.push_back({Vec3f(normalized(ray)), static_cast<float>(sigma),
+                                        static_cast<float>(0.8 * seen.depth / kFocalLength)});
     }
   }
   describe(cloud.attributes, cloud.positions.size(), random);
@@ -136,6 +138,8 @@ TriangleMesh make_sample_mesh() {
   mesh.positions.push_back({0.5f, 0.5f, 0.5f});
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     mesh.attributes.sigma.push_back(static_cast<float>(random.uniform(0.001, 0.002)));
+    const Vec3d ray = normalized(Vec3d(mesh.positions[v]) - Vec3d{0.4, 0.3, 2});
+    mesh.attributes.noise.push_back({Vec3f(ray), mesh.attributes.sigma[v], 0.0008f});
   }
   mesh.attributes.normals = vertex_normals(mesh);
   describe(mesh.attributes, mesh.positions.size(), random);

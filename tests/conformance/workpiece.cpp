@@ -23,6 +23,7 @@ void append(std::string& bytes, const Attributes& attributes) {
   append(bytes, attributes.normals);
   append(bytes, attributes.colors);
   append(bytes, attributes.sigma);
+  append(bytes, attributes.noise);
   append(bytes, attributes.observations);
   append(bytes, attributes.origin);
   for (const Channel& channel : attributes.channels) {
@@ -75,6 +76,19 @@ std::string first_of(Findings... findings) {
   return first;
 }
 
+std::string compare(const std::vector<PointNoise>& expected, const std::vector<PointNoise>& actual,
+                    double direction, double length) {
+  if (expected.size() != actual.size()) return "another number of noises";
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const PointNoise &a = expected[i], &b = actual[i];
+    if (!near(a.axis, b.axis, direction) || !near(a.along, b.along, length) ||
+        !near(a.across, b.across, length)) {
+      return fmt::format("noise {} differs", i);
+    }
+  }
+  return {};
+}
+
 std::string compare(const Attributes& expected, const Attributes& actual, double length,
                     double tolerance) {
   if (expected.channels != actual.channels) return "channels differ";
@@ -83,6 +97,7 @@ std::string compare(const Attributes& expected, const Attributes& actual, double
   return first_of(compare("normal", expected.normals, actual.normals, 1000 * tolerance),
                   compare("color", expected.colors, actual.colors, 0),
                   compare("sigma", expected.sigma, actual.sigma, length * tolerance),
+                  compare(expected.noise, actual.noise, 1000 * tolerance, length * tolerance),
                   compare("observations", expected.observations, actual.observations, 0),
                   compare("origin", expected.origin, actual.origin, 0));
 }
@@ -103,6 +118,10 @@ std::string compare(const Facts& expected, const Facts& actual, double tolerance
 void scale(std::vector<Vec3f>& points, Attributes& attributes, double factor) {
   for (Vec3f& p : points) p = Vec3f(factor * Vec3d(p));
   for (float& sigma : attributes.sigma) sigma = static_cast<float>(factor * sigma);
+  for (PointNoise& noise : attributes.noise) {
+    noise.along = static_cast<float>(factor * noise.along);
+    noise.across = static_cast<float>(factor * noise.across);
+  }
 }
 
 void rotate(std::vector<Vec3f>& points, Attributes& attributes, const RigidTransform& turn) {
@@ -110,6 +129,9 @@ void rotate(std::vector<Vec3f>& points, Attributes& attributes, const RigidTrans
     if (is_finite(p)) p = Vec3f(turn.rotate(Vec3d(p)));
   }
   for (Vec3f& n : attributes.normals) n = Vec3f(turn.rotate(Vec3d(n)));
+  for (PointNoise& noise : attributes.noise) {
+    noise.axis = Vec3f(turn.rotate(Vec3d(noise.axis)));
+  }
 }
 
 std::vector<std::uint32_t> shuffled(std::size_t count, Random& random) {

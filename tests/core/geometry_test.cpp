@@ -20,6 +20,7 @@ Attributes every_attribute(std::size_t count) {
     all.normals.push_back({n, 0, 1});
     all.colors.push_back({static_cast<std::uint8_t>(i), 1, 2, 3});
     all.sigma.push_back(n / 8);
+    all.noise.push_back({{1, 0, 0}, n, n / 4});
     all.observations.push_back(static_cast<std::uint32_t>(10 * i));
     all.origin.push_back(i % 2 == 0 ? Origin::seen : Origin::invented);
   }
@@ -54,13 +55,14 @@ TEST(CheckMesh, NamesTheFirstOffender) {
 
 TEST(CheckMesh, NamesTheAttributeOfAnotherLength) {
   for (const char* name :
-       {"normals", "colors", "sigma", "observations", "origin", "short", "number"}) {
+       {"normals", "colors", "sigma", "noise", "observations", "origin", "short", "number"}) {
     TriangleMesh mesh = make_grid(1, 1);
     mesh.attributes = every_attribute(4);
     const std::string which = name;
     if (which == "normals") mesh.attributes.normals.pop_back();
     if (which == "colors") mesh.attributes.colors.pop_back();
     if (which == "sigma") mesh.attributes.sigma.pop_back();
+    if (which == "noise") mesh.attributes.noise.pop_back();
     if (which == "observations") mesh.attributes.observations.pop_back();
     if (which == "origin") mesh.attributes.origin.pop_back();
     if (which == "short") mesh.attributes.channels[0].values = std::vector<std::int16_t>(3);
@@ -87,6 +89,7 @@ TEST(Gather, TakesTheElementsAskedForInThatOrder) {
   const std::vector<std::uint32_t> kept{4, 1, 1};
   const Attributes some = gather(all, kept);
   EXPECT_EQ(some.normals, (std::vector<Vec3f>{{4, 0, 1}, {1, 0, 1}, {1, 0, 1}}));
+  EXPECT_EQ(some.noise, (std::vector<PointNoise>{all.noise[4], all.noise[1], all.noise[1]}));
   EXPECT_EQ(some.observations, (std::vector<std::uint32_t>{40, 10, 10}));
   EXPECT_EQ(some.origin, (std::vector<Origin>{Origin::seen, Origin::invented, Origin::invented}));
   EXPECT_TRUE(check_lengths(some, 3));

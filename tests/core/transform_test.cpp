@@ -15,14 +15,16 @@ RigidTransform turned_and_shifted(const Vec3d& shift) {
   return {{{{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}}}, shift};
 }
 
-TEST(Transform, MovesPositionsNormalsAndViewpoint) {
+TEST(Transform, MovesPositionsNormalsNoiseAndViewpoint) {
   PointCloud cloud;
   cloud.positions = {{1, 2, 3}};
   cloud.attributes.normals = {{1, 0, 0}};
+  cloud.attributes.noise = {{{0, 1, 0}, 0.2f, 0.1f}};
   cloud.viewpoint = Vec3d{0, 1, 0};
   const PointCloud moved = transformed(cloud, turned_and_shifted({10, 0, 0}));
   EXPECT_EQ(moved.positions[0], (Vec3f{9, -2, 3}));
   EXPECT_EQ(moved.attributes.normals[0], (Vec3f{-1, 0, 0}));
+  EXPECT_EQ(moved.attributes.noise[0], (PointNoise{{0, -1, 0}, 0.2f, 0.1f}));
   EXPECT_EQ(moved.viewpoint, (Vec3d{10, -1, 0}));
   EXPECT_EQ(moved.frame, Frame{});
 }

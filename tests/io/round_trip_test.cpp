@@ -14,6 +14,7 @@ void expect_same(const Attributes& a, const Attributes& b) {
   EXPECT_TRUE(same_bits(a.normals, b.normals));
   EXPECT_TRUE(same_bits(a.colors, b.colors));
   EXPECT_TRUE(same_bits(a.sigma, b.sigma));
+  EXPECT_TRUE(same_bits(a.noise, b.noise));
   EXPECT_TRUE(same_bits(a.observations, b.observations));
   EXPECT_TRUE(same_bits(a.origin, b.origin));
   ASSERT_EQ(a.channels.size(), b.channels.size());
@@ -176,13 +177,13 @@ TEST(Write, SaysWhatAFormatCannotHold) {
   mesh.triangle_attributes = test::any_triangle_attributes(9, 500, 300);
   const auto obj = write_mesh(folder / "mesh.obj", mesh);
   ASSERT_TRUE(obj);
-  // Alpha; sigma, observations, origin; the channels; origin and owner of triangles.
-  EXPECT_EQ(obj->notes.size(), 1 + 3 + 8 + 2u);
+  // Alpha; sigma, noise, observations, origin; the channels; origin and owner of triangles.
+  EXPECT_EQ(obj->notes.size(), 1 + 4 + 8 + 2u);
   EXPECT_EQ(obj->notes.back(), "OBJ cannot hold the owner of triangles: left out");
   const auto stl = write_mesh(folder / "mesh.stl", mesh);
   ASSERT_TRUE(stl);
   EXPECT_EQ(stl->notes.size(),
-            2 + 3 + 8 + 2 + 1u);  // normals, colours; ...; vertices that nothing uses
+            2 + 4 + 8 + 2 + 1u);  // normals, colours; ...; vertices that nothing uses
 }
 
 TEST(Write, RefusesToLoseGeometry) {

@@ -84,6 +84,11 @@ inline Attributes any_attributes(std::uint64_t seed, std::size_t count) {
     for (std::uint8_t& part : color) part = static_cast<std::uint8_t>(random.next());
     a.colors.push_back(color);
     a.sigma.push_back(any_float(random));
+    PointNoise noise;
+    noise.axis = any_vector(random);
+    noise.along = any_float(random);
+    noise.across = any_float(random);
+    a.noise.push_back(noise);
     a.observations.push_back(static_cast<std::uint32_t>(random.next()));
     a.origin.push_back(static_cast<Origin>(random.below(3)));
   }

@@ -21,7 +21,7 @@ TriangleMesh with_channel(TriangleMesh mesh, Channel::Values values) {
 /// One pass of the mean over a rough sphere, confined to its upper half.
 Result<void> smooth_upper_half(TriangleMesh& mesh, Record& record,
                                const Region& region = kUpperHalf) {
-  return smooth_in_phases(mesh, {{"one_ring_mean", {}}, {"one_ring_mean", {}}}, region, true,
+  return smooth_in_phases(mesh, {{"one_ring_mean", {}}, {"one_ring_mean", {}}}, {region, {}}, true,
                           record, {});
 }
 
@@ -30,7 +30,7 @@ TEST(Confinement, MovesWhatIsInsideAndNothingElse) {
   TriangleMesh confined = before, everywhere = before;
   Record record;
   const std::vector<Method> once{{"one_ring_mean", {}}};
-  ASSERT_TRUE(smooth_in_phases(confined, once, kUpperHalf, true, record, {}));
+  ASSERT_TRUE(smooth_in_phases(confined, once, {kUpperHalf, {}}, true, record, {}));
   ASSERT_TRUE(smooth_in_phases(everywhere, once, {}, true, record, {}));
   std::size_t inside = 0;
   for (std::size_t v = 0; v < before.positions.size(); ++v) {
@@ -80,7 +80,7 @@ TEST(Confinement, WeightsOfTheMeshCountInsideAndStayAsTheyWere) {
   TriangleMesh confined = before, everywhere = before;
   Record record;
   const std::vector<Method> once{{"one_ring_mean", {}}};
-  ASSERT_TRUE(smooth_in_phases(confined, once, kUpperHalf, true, record, {}));
+  ASSERT_TRUE(smooth_in_phases(confined, once, {kUpperHalf, {}}, true, record, {}));
   ASSERT_TRUE(smooth_in_phases(everywhere, once, {}, true, record, {}));
   for (std::size_t v = 0; v < before.positions.size(); ++v) {
     EXPECT_EQ(confined.positions[v],
@@ -115,13 +115,14 @@ TEST(Confinement, AFailedSmoothingLeavesNoTraceEither) {
   TriangleMesh mesh = make_sphere(1, 2);
   const TriangleMesh before = mesh;
   Record record;
-  ASSERT_FALSE(smooth_in_phases(mesh, {{"one_ring_mean", {{"iterations", "-1"}}}}, kUpperHalf,
+  ASSERT_FALSE(smooth_in_phases(mesh, {{"one_ring_mean", {{"iterations", "-1"}}}}, {kUpperHalf, {}},
                                 false, record, {}));
   std::stop_source stop;
   stop.request_stop();
   Context context;
   context.stop = stop.get_token();
-  ASSERT_FALSE(smooth_in_phases(mesh, {{"one_ring_mean", {}}}, kUpperHalf, false, record, context));
+  ASSERT_FALSE(
+      smooth_in_phases(mesh, {{"one_ring_mean", {}}}, {kUpperHalf, {}}, false, record, context));
   EXPECT_EQ(mesh, before);
 }
 

@@ -250,6 +250,51 @@ TEST(MergeCells, PixelsAlongOutlinesTellLess) {
   EXPECT_LT(sigma[1] / count[1], 4.5 * sigma[0] / count[0]);
 }
 
+/// The mean deviation along x, y and z of merged points near `place`.
+Vec3d deviations_near(const PointCloud& cloud, const Vec3d& place) {
+  Vec3d sum;
+  double count = 0;
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
+    if (norm(Vec3d(cloud.positions[i]) - place) > 0.1) continue;
+    const PointNoise& noise = cloud.attributes.noise[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double a = noise.axis[axis];
+      sum[axis] += std::sqrt(noise.across * noise.across +
+                             a * a * (noise.along * noise.along - noise.across * noise.across));
+    }
+    ++count;
+  }
+  EXPECT_GT(count, 3);
+  return sum / count;
+}
+
+TEST(MergeCells, ViewsFromTwoSidesLeaveASmallerRegionThanEither) {
+  std::vector<PointCloud> clouds;
+  for (const Vec3d& eye : {Vec3d{3, 0, 0}, Vec3d{0, 3, 0}}) {
+    DepthFrame frame = empty_frame();
+    frame.T_world_camera = look_at(eye, {0, 0, 0}, {0, 0, 1});
+    frame.noise.pixels = 0.2, frame.noise.pixels_grazing = 0;
+    fill(frame, ball(frame.T_world_camera.inverse()({0, 0, 0}), 0.5), 1, clouds.size());
+    clouds.push_back(*unproject(frame));
+  }
+  const MergeCellsParams params{.spacing = 0.05, .registration = 1e-5, .correlation = 0};
+  const auto both = merge_cells(clouds, params);
+  const auto first = merge_cells(std::span(clouds).first(1), params);
+  const auto second = merge_cells(std::span(clouds).last(1), params);
+  ASSERT_TRUE(both && first && second);
+  const Vec3d place = normalized(Vec3d{1, 1, 0}) * 0.5;
+  const Vec3d b = deviations_near(both->cloud, place), x = deviations_near(first->cloud, place),
+              y = deviations_near(second->cloud, place);
+  // At 3 m this camera errs three times as far along its rays as across: what one sees dimly the
+  // other sees sharply.
+  EXPECT_GT(x.x, 1.5 * x.y);
+  EXPECT_GT(y.y, 1.5 * y.x);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_LT(b[axis], x[axis]);
+    EXPECT_LT(b[axis], y[axis]);
+  }
+}
+
 TEST(MergeCells, TakesEmptyCloudsAndSinglePoints) {
   const std::vector<PointCloud> empty(2);
   const auto nothing = merge_cells(empty);

@@ -68,6 +68,11 @@ TEST(Unproject, GivesSigmaByTheFormula) {
     const double expected = std::hypot(frame.noise.axial(z, theta) * std::cos(theta),
                                        frame.noise.lateral(z, theta, 146) * std::sin(theta));
     EXPECT_NEAR(cloud->attributes.sigma[i], expected, 1e-5 * expected);
+    const PointNoise& noise = cloud->attributes.noise[i];
+    EXPECT_LT(angle(Vec3d(cloud->positions[i]), Vec3d(noise.axis)), 1e-3);
+    EXPECT_NEAR(norm(noise.axis), 1, 1e-6);
+    EXPECT_NEAR(noise.along, frame.noise.axial(z, theta), 1e-5 * noise.along);
+    EXPECT_NEAR(noise.across, frame.noise.lateral(z, theta, 146), 1e-5 * noise.across);
     EXPECT_EQ(cloud->attributes.observations[i], 1u);
     EXPECT_EQ(cloud->attributes.origin[i], Origin::seen);
   }
@@ -85,6 +90,7 @@ TEST(Unproject, LeavesOutWhatIsNoMeasurement) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_TRUE(std::isnan(cloud->positions[i].x) && std::isnan(cloud->positions[i].z));
     EXPECT_EQ(cloud->attributes.sigma[i], 0);
+    EXPECT_EQ(cloud->attributes.noise[i], PointNoise{});
     EXPECT_EQ(cloud->attributes.observations[i], 0u);
     EXPECT_EQ(cloud->attributes.normals[i], Vec3f{});
   }

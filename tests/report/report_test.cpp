@@ -82,6 +82,19 @@ TEST(Report, ShowsNamesAndCommentsAsText) {
   EXPECT_GE(count_of(page, "A &lt;b&gt;sphere&lt;/b&gt; &amp; &quot;more&quot;"), 2u);
 }
 
+TEST(Report, SaysWhatIsCertifiedAndWhatIsNot) {
+  Record record = full_record();
+  EXPECT_EQ(count_of(page_of(record), "Noise bound"), 0u);
+  record.certificate = NoiseCertificate{.c = 1.75, .vertices = 420, .at_bound = 37};
+  record.certificate->largest_ratio = 1.74321;
+  const std::string page = page_of(record);
+  EXPECT_EQ(test::malformed(page), "");
+  EXPECT_EQ(count_of(page, "Noise bound"), 1u);
+  EXPECT_EQ(count_of(page, "farther than c = 1.75 standard deviations"), 1u);
+  EXPECT_EQ(count_of(page, "largest ratio 1.74321; 37 of 420 vertices"), 1u);
+  EXPECT_EQ(count_of(page, kNotCovered), 1u);
+}
+
 TEST(Report, WritesParametersAndFactsWithUnits) {
   const std::string page = page_of(full_record());
   EXPECT_EQ(count_of(page, "2.5\u202fmm"), 1u) << "a setting whose schema says metres";

@@ -13,7 +13,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> inputs;
-  std::string output, truth, crop, smooth_region;
+  std::string output, truth, crop, smooth_region, bound;
   ReportOutput report;
   FrameTexts frames;
   std::vector<std::string> clean, merge, clean_merged, triangulate, repair, smooth;
@@ -43,6 +43,9 @@ Result<Recipe> recipe_of(const Options& options) {
   const auto smooth_region = parse_region_option(options.smooth_region, "--smooth_region");
   if (!smooth_region) return smooth_region.error();
   recipe.smooth_region = *smooth_region;
+  const auto bound = bound_of(options.bound);
+  if (!bound) return bound.error();
+  recipe.bound = *bound;
   std::vector<Method> merge{recipe.merge}, triangulate;
   const std::pair<std::vector<Method>*, const std::vector<std::string>*> steps[] = {
       {&recipe.clean_scan, &options.clean},
@@ -78,9 +81,13 @@ Result<void> run(const Options& options, const Session& session, const Context& 
   Result<Reconstruction> made =
       reconstruct(inputs, *recipe, how, std::move(record), context.part(0, 0.85));
   if (!made) return std::move(made).error();
-  if (auto written = save(options.output, made->mesh, session, context.part(0.85, 0.88)); !written)
+  if (auto written = save(options.output, made->mesh, session, context.part(0.85, 0.88),
+                          comments_of(made->record));
+      !written) {
     return written;
+  }
   say_steps(session, made->record);
+  say_certificate(session, made->record);
   say_comparisons(session, made->record);
   say_mesh(session, options.output, made->mesh);
   return write_report_output(options.report, made->record, session, context.part(0.88, 1));
@@ -118,6 +125,7 @@ Action add_reconstruct(CLI::App& app) {
   verb->add_option(
       "--smooth_region", options->smooth_region,
       "smooth only vertices in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");
+  add_bound(verb, options->bound);
   verb->footer(
       "Known layouts: 7-Scenes (frame-NNN.depth.png, frame-NNN.pose.txt, camera-intrinsics.txt); "
       "numbered\n"

@@ -11,7 +11,7 @@ namespace burnish::app {
 namespace {
 
 struct Options {
-  std::string input, output, region;
+  std::string input, output, region, bound;
   ReportOutput report;
   std::vector<std::string> methods;
 };
@@ -22,6 +22,8 @@ Result<void> smooth(const Options& options, const Session& session, const Contex
   if (auto known = check_smoothing(*methods); !known) return known;
   const Result<std::optional<Region>> region = parse_region_option(options.region, "--region");
   if (!region) return region.error();
+  const auto bound = bound_of(options.bound);
+  if (!bound) return bound.error();
 
   if (auto possible = check_output(options.output); !possible) return possible;
   if (auto possible = check_report_output(options.report); !possible) return possible;
@@ -34,14 +36,18 @@ Result<void> smooth(const Options& options, const Session& session, const Contex
   Result<TriangleMesh> mesh = mesh_of(*std::move(file), options.input);
   if (!mesh) return std::move(mesh).error();
   const bool keep_phases = options.report.wanted();
-  if (auto done =
-          smooth_in_phases(*mesh, *methods, *region, keep_phases, record, context.part(0.2, 0.7));
+  if (auto done = smooth_in_phases(*mesh, *methods, {*region, *bound}, keep_phases, record,
+                                   context.part(0.2, 0.7));
       !done) {
     return done;
   }
-  if (auto written = save(options.output, *mesh, session, context.part(0.7, 0.8)); !written)
+  if (auto written =
+          save(options.output, *mesh, session, context.part(0.7, 0.8), comments_of(record));
+      !written) {
     return written;
+  }
   say_steps(session, record);
+  say_certificate(session, record);
   return write_report_output(options.report, record, session, context.part(0.8, 1));
 }
 
@@ -59,6 +65,7 @@ Action add_smooth(CLI::App& app) {
   verb->add_option(
       "--region", options->region,
       "smooth only vertices in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");
+  add_bound(verb, options->bound);
   add_report_options(verb, options->report);
   verb->footer(
       "Methods:\n" + methods_help("smooth") +
@@ -69,6 +76,7 @@ Action add_smooth(CLI::App& app) {
       "Examples:\n"
       "  burnish smooth scan.ply -o smooth.ply --method one_ring_mean:iterations=5 "
       "--region sphere:0,0,0.3,5cm\n"
+      "  burnish smooth scan.ply -o smooth.ply --method gaussian:iterations=5 --bound noise:c=2\n"
       "  burnish smooth scan.ply -o smooth.ply --method nearest_farthest:iterations=2");
   return [options](const Session& s, const Context& c) { return smooth(*options, s, c); };
 }

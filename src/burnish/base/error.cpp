@@ -18,6 +18,8 @@ std::string_view to_string(ErrorCode code) {
       return "io_failure";
     case ErrorCode::out_of_memory:
       return "out_of_memory";
+    case ErrorCode::refuted:
+      return "refuted";
     case ErrorCode::cancelled:
       return "cancelled";
   }

@@ -15,6 +15,7 @@ enum class ErrorCode {
   bad_geometry,      ///< a mesh, cloud or frame that the operation cannot work on
   io_failure,        ///< the operating system refused to read or write
   out_of_memory,
+  refuted,  ///< what was to be verified does not hold
   cancelled,
 };
 

@@ -20,6 +20,7 @@ Result<void> check_lengths(const Attributes& attributes, std::size_t count) {
   if (auto ok = check("normals", attributes.normals.size()); !ok) return ok;
   if (auto ok = check("colors", attributes.colors.size()); !ok) return ok;
   if (auto ok = check("sigma", attributes.sigma.size()); !ok) return ok;
+  if (auto ok = check("noise", attributes.noise.size()); !ok) return ok;
   if (auto ok = check("observations", attributes.observations.size()); !ok) return ok;
   if (auto ok = check("origin", attributes.origin.size()); !ok) return ok;
   for (const Channel& channel : attributes.channels) {
@@ -29,9 +30,13 @@ Result<void> check_lengths(const Attributes& attributes, std::size_t count) {
 }
 
 Attributes gather(const Attributes& attributes, const Selection& kept) {
-  Attributes result{gather(attributes.normals, kept), gather(attributes.colors, kept),
-                    gather(attributes.sigma, kept),   gather(attributes.observations, kept),
-                    gather(attributes.origin, kept),  {}};
+  Attributes result{gather(attributes.normals, kept),
+                    gather(attributes.colors, kept),
+                    gather(attributes.sigma, kept),
+                    gather(attributes.noise, kept),
+                    gather(attributes.observations, kept),
+                    gather(attributes.origin, kept),
+                    {}};
   for (const Channel& channel : attributes.channels) {
     result.channels.push_back(
         {channel.name, std::visit([&](const auto& v) -> Channel::Values { return gather(v, kept); },

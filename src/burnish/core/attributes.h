@@ -18,6 +18,17 @@ using Color = std::array<std::uint8_t, 4>;
 /// Where a vertex comes from: measured by the sensor, put between measured ones, or made up.
 enum class Origin : std::uint8_t { seen = 0, interpolated = 1, invented = 2 };
 
+/// How far a measurement may be off, as one standard deviation along an axis (the ray of a depth
+/// camera) and one across it: its sensor places the point in a spheroid, thin across the ray and
+/// long along it. Both 0: a measurement that is exact.
+struct PointNoise {
+  Vec3f axis{};      ///< unit length, either way round; of no meaning where along = across
+  float along = 0;   ///< m
+  float across = 0;  ///< m
+
+  friend bool operator==(const PointNoise&, const PointNoise&) = default;
+};
+
 /// One number per vertex under a name of the user's, in the type in which the file held it.
 struct Channel {
   using Values =
@@ -36,7 +47,10 @@ struct Channel {
 struct Attributes {
   std::vector<Vec3f> normals;  ///< unit length, pointing out of the surface; 0 = unknown
   std::vector<Color> colors;
-  std::vector<float> sigma;                 ///< one standard deviation of the position, m
+  std::vector<float> sigma;  ///< one standard deviation of the position across the surface, m
+  std::vector<PointNoise>
+      noise;  ///< of the measurement that the vertex came from: smoothing, which
+              ///< moves the vertex and makes sigma smaller, leaves it alone
   std::vector<std::uint32_t> observations;  ///< how many measurements the vertex is the mean of
   std::vector<Origin> origin;
   std::vector<Channel> channels;

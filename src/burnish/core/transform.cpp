@@ -16,6 +16,9 @@ PointCloud transformed(PointCloud cloud, const RigidTransform& T) {
     if (is_finite(p)) p = Vec3f(T(cloud.frame.origin + Vec3d(p)) - frame.origin);
   }
   for (Vec3f& n : cloud.attributes.normals) n = Vec3f(T.rotate(Vec3d(n)));
+  for (PointNoise& noise : cloud.attributes.noise) {
+    noise.axis = Vec3f(T.rotate(Vec3d(noise.axis)));
+  }
   if (cloud.grid || cloud.viewpoint) cloud.viewpoint = T(cloud.viewpoint.value_or(Vec3d{}));
   cloud.frame = frame;
   return cloud;

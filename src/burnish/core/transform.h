@@ -9,7 +9,8 @@ namespace burnish {
 /// them (within 100 m: steps of 8 um), else one whose origin is `place` in whole metres.
 Frame frame_near(const Vec3d& place);
 
-/// The cloud moved by `T`, a world to another: positions, normals, viewpoint. Missing pixels stay
+/// The cloud moved by `T`, a world to another: positions, normals, the axes of
+/// the noise, viewpoint. Missing pixels stay
 /// missing; an organized cloud without a viewpoint was seen from the origin. The result is relative
 /// to the frame_near of where its own origin goes.
 PointCloud transformed(PointCloud cloud, const RigidTransform& T);

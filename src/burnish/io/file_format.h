@@ -31,7 +31,7 @@ struct GeometryView {
 struct Holds {
   bool triangles = false, points = false;  ///< meshes; clouds without triangles
   bool normals = false, colors = false, alpha = false;
-  bool measures = false;  ///< sigma, observations, origin
+  bool measures = false;  ///< sigma, noise, observations, origin
   bool channels = false;
   bool doubles = false;  ///< positions beyond float precision
   bool grid = false, viewpoint = false;

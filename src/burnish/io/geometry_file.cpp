@@ -117,6 +117,7 @@ Result<std::vector<std::string>> losses(const FileFormat& format, const Geometry
   lose(std::any_of(colors.begin(), colors.end(), [](const Color& c) { return c[3] != 255; }),
        holds.alpha || !holds.colors, "alpha");
   lose(!attributes.sigma.empty(), holds.measures, "sigma");
+  lose(!attributes.noise.empty(), holds.measures, "noise");
   lose(!attributes.observations.empty(), holds.measures, "observations");
   lose(!attributes.origin.empty(), holds.measures, "origin");
   for (const Channel& channel : attributes.channels) {

@@ -69,6 +69,7 @@ VertexColumns::VertexColumns(std::vector<Field> fields, std::size_t expected, co
   add_normals();
   add_colors();
   add_measures();
+  add_noise();
   add_channels();
 }
 
@@ -221,6 +222,28 @@ void VertexColumns::add_measures() {
   add("sigma", attributes_.sigma);
   add("observations", attributes_.observations);
   add("origin", origins_);
+}
+
+void VertexColumns::add_noise() {
+  const Indices parts = take({"noise_x", "noise_y", "noise_z", "noise_along", "noise_across"});
+  if (parts.empty()) return;
+  const bool all_float = std::all_of(parts.begin(), parts.end(), [&](std::size_t i) {
+    return fields_[i].type == NumberType::float32;
+  });
+  if (!all_float) {
+    for (const std::size_t i : parts) taken_[i] = false;
+    return;
+  }
+  static_assert(sizeof(PointNoise) == 5 * sizeof(float));
+  attributes_.noise.reserve(expected_);
+  decoders_.push_back([this, parts](const Block& block) {
+    attributes_.noise.resize(block.first + block.rows);
+    float* out = &attributes_.noise[block.first].axis.x;
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      scatter(block.columns[parts[part]], NumberType::float32, block.swap, block.rows, out + part,
+              parts.size(), [](auto value) { return static_cast<float>(value); });
+    }
+  });
 }
 
 void VertexColumns::add_channels() {

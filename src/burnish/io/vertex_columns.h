@@ -31,6 +31,9 @@ struct Column {
 ///   red green blue [alpha] | r g b [a]          colours, uint8, or floats of 0..1 (or 0..255)
 ///   rgb | rgba                                  colours packed as 0xAARRGGBB in four bytes
 ///   sigma (float32), observations (uint32), origin (uint8)
+///   noise_x noise_y noise_z noise_along noise_across (float32)   the measurement's noise: its
+///   axis,
+///                                               standard deviations along and across it, m
 /// All others become channels in their own type (64-bit integers: double).
 class VertexColumns {
  public:
@@ -61,6 +64,7 @@ class VertexColumns {
   void add_normals();
   void add_colors();
   void add_measures();
+  void add_noise();
   void add_channels();
 
   std::vector<Field> fields_;

@@ -86,6 +86,14 @@ VertexRows::VertexRows(const GeometryView& view, FieldNames names) : view_(view)
   }
   if (!attributes.colors.empty()) add_colors(names);
   if (!attributes.sigma.empty()) add_values<float>("sigma", attributes.sigma);
+  if (!attributes.noise.empty()) {
+    static_assert(sizeof(PointNoise) == 5 * sizeof(float));
+    add<float>({"noise_x", "noise_y", "noise_z", "noise_along", "noise_across"},
+               [this, &attributes](std::size_t first, std::size_t rows, char* out) {
+                 for (std::size_t i = 0; i < rows; ++i, out += row_bytes_)
+                   std::memcpy(out, &attributes.noise[first + i], sizeof(PointNoise));
+               });
+  }
   if (!attributes.observations.empty())
     add_values<std::uint32_t>("observations", attributes.observations);
   if (!attributes.origin.empty()) add_values<std::uint8_t>("origin", attributes.origin);

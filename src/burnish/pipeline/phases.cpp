@@ -7,6 +7,7 @@
 
 #include "burnish/base/version.h"
 #include "burnish/pipeline/confinement.h"
+#include "burnish/pipeline/recipe.h"
 
 namespace burnish {
 namespace {
@@ -52,7 +53,7 @@ Result<void> run_all(std::string_view verb, const std::vector<Method>& methods, 
         [&](const auto& operation) { return run(operation, methods[i].settings, share); },
         [](const Facts& measured) { return measured; });
     if (!facts) return facts.error();
-    after(i);
+    if (auto ok = after(i); !ok) return ok;
   }
   return {};
 }
@@ -66,7 +67,7 @@ Result<void> edit(std::string_view verb, T& edited, const std::vector<Method>& m
       [&](const auto& operation, const Settings& settings, const Context& share) {
         return operation.run(edited, settings, share);
       },
-      [](std::size_t) {});
+      [](std::size_t) { return Result<void>(); });
 }
 
 /// The record's line on a region to smooth.
@@ -82,6 +83,33 @@ Step confining(const Region& region, const std::vector<float>& weights) {
 }
 
 constexpr auto kFactsOfCreated = [](const auto& created) { return created.facts; };
+
+Error in_bound(Error error) {
+  return in_step("bound", {kNoiseBound, {}}, std::move(error));
+}
+
+/// Binds what a phase has moved to the noise, and records it.
+Result<void> put_back(const TriangleMesh& before, TriangleMesh& mesh,
+                      const NoiseBoundParams& params, Record& record, const Context& context) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto report = bound_to_noise(before, mesh, params, context);
+  if (!report) return in_bound(report.error());
+  const auto& schema = NoiseBoundParams::schema();
+  record.steps.push_back({"bound", kNoiseBound, schema.settings(params), report->facts(),
+                          seconds_since(start), schema.fields()});
+  return {};
+}
+
+Result<void> certify(const TriangleMesh& before, const TriangleMesh& mesh, double c,
+                     Record& record) {
+  Result<NoiseCertificate> certificate = certify_noise_bound(before, mesh, c);
+  if (!certificate) return in_bound(certificate.error());
+  if (!certificate->holds()) {
+    return in_bound({ErrorCode::refuted, sentences(*certificate).front(), {}});
+  }
+  record.certificate = *std::move(certificate);
+  return {};
+}
 
 }  // namespace
 
@@ -126,27 +154,44 @@ Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods,
 }
 
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
-                              const std::optional<Region>& region, bool keep_phases, Record& record,
+                              const SmoothingLimits& limits, bool keep_phases, Record& record,
                               const Context& context) {
   std::vector<float> weights;
-  if (region) {
-    Result<std::vector<float>> inside = weights_inside(mesh, *region);
+  if (limits.region) {
+    Result<std::vector<float>> inside = weights_inside(mesh, *limits.region);
     if (!inside) return std::move(inside).error();
     weights = *std::move(inside);
-    record.steps.push_back(confining(*region, weights));
+    record.steps.push_back(confining(*limits.region, weights));
+  }
+  TriangleMesh before;
+  if (limits.bound) {
+    if (auto known = check_noise(mesh); !known) return in_bound(known.error());
+    before = mesh;
   }
   const auto keep_phase = [&](std::string name) {
     if (keep_phases) record.phases.push_back({std::move(name), mesh, {}});
   };
   keep_phase("original");
-  return run_all(
-      "smooth", methods, find_smooth, record, context,
-      [&](const SmoothOperation& operation, const Settings& settings, const Context& share) {
-        if (!region) return operation.run(mesh, settings, share);
-        const TemporaryWeights confined(mesh, weights);
-        return operation.run(mesh, settings, share);
-      },
-      [&](std::size_t i) { keep_phase(fmt::format("phase {}", i + 1)); });
+  const auto smooth = [&](const SmoothOperation& operation, const Settings& settings,
+                          const Context& share) {
+    if (!limits.region) return operation.run(mesh, settings, share);
+    const TemporaryWeights confined(mesh, weights);
+    return operation.run(mesh, settings, share);
+  };
+  Context silent = context;
+  silent.sink = nullptr;  // the bar belongs to the phases; to bind one takes next to no time
+  const auto after_phase = [&](std::size_t i) -> Result<void> {
+    if (limits.bound) {
+      if (auto done = put_back(before, mesh, *limits.bound, record, silent); !done) return done;
+    }
+    keep_phase(fmt::format("phase {}", i + 1));
+    return {};
+  };
+  if (auto done = run_all("smooth", methods, find_smooth, record, context, smooth, after_phase);
+      !done) {
+    return done;
+  }
+  return limits.bound ? certify(before, mesh, limits.bound->c, record) : Result<void>();
 }
 
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs) {

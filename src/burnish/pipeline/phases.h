@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
+
 #include "burnish/catalogue/operations.h"
 #include "burnish/pipeline/record.h"
 #include "burnish/pipeline/region.h"
+#include "burnish/smoothing/noise_bound.h"
 
 namespace burnish {
 
@@ -22,11 +25,21 @@ Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& me
 Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods, Record& record,
                          const Context& context);
 
-/// Moves the vertices alone that lie in `region` (world coordinates) before the first phase, where
-/// one is given; a channel smoothing_weight that the mesh brings counts besides. With `keep_phases`
-/// the record gets the mesh as it is now ("original") and after each method ("phase 1", ...).
+/// What holds a smoothing back.
+struct SmoothingLimits {
+  std::optional<Region> region;           ///< world coordinates; only what lies inside moves
+  std::optional<NoiseBoundParams> bound;  ///< no vertex leaves the region of its measurement
+};
+
+/// Moves the vertices alone that lie in the region before the first phase, where one is given; a
+/// channel smoothing_weight that the mesh brings counts besides. With a bound no vertex leaves the
+/// region in which the mesh as it is now says that it can be: it is put back after each method, and
+/// the record gets the certificate, which a computation of its own makes. With `keep_phases` the
+/// record gets the mesh as it is now ("original") and after each method ("phase 1", ...). Errors:
+/// also bad_geometry where a bound is wanted and the mesh knows of no noise, before anything is
+/// smoothed; refuted where the certificate does not hold.
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
-                              const std::optional<Region>& region, bool keep_phases, Record& record,
+                              const SmoothingLimits& limits, bool keep_phases, Record& record,
                               const Context& context);
 
 /// A record with its title, the command line and the versions filled in.

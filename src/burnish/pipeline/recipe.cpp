@@ -1,5 +1,7 @@
 #include "burnish/pipeline/recipe.h"
 
+#include <fmt/format.h>
+
 namespace burnish {
 namespace {
 
@@ -19,6 +21,19 @@ Result<void> check_methods(const std::vector<Method>& methods, Find find) {
 
 }  // namespace
 
+Result<NoiseBoundParams> parse_bound(std::string_view text) {
+  const Result<Method> method = parse_method(text);
+  if (!method) return method.error();
+  if (method->name != kNoiseBound) {
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("'{}' bounds no smoothing, known: {}", method->name, kNoiseBound),
+                 {}};
+  }
+  auto params = NoiseBoundParams::schema().parse(method->settings);
+  if (!params) return Error{params.error().code, params.error().message, "bound"};
+  return params;
+}
+
 Result<void> check_smoothing(const std::vector<Method>& methods) {
   return check_methods(methods, find_smooth);
 }
@@ -31,6 +46,9 @@ Result<void> check(const Recipe& recipe) {
     if (auto ok = check_methods({*recipe.triangulate}, find_triangulate); !ok) return ok;
   }
   if (auto ok = check_methods(recipe.repair, find_repair); !ok) return ok;
+  if (recipe.bound) {
+    if (auto valid = NoiseBoundParams::schema().check(*recipe.bound); !valid) return valid;
+  }
   if (recipe.smooth_region && recipe.smooth.empty()) {
     return Error{ErrorCode::invalid_argument,
                  "a region to smooth is given, but no method to smooth with",

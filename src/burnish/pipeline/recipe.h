@@ -5,6 +5,7 @@
 
 #include "burnish/catalogue/operations.h"
 #include "burnish/pipeline/region.h"
+#include "burnish/smoothing/noise_bound.h"
 
 namespace burnish {
 
@@ -18,8 +19,15 @@ struct Recipe {
   std::vector<Method> repair{{"small_components", {}}};
   std::vector<Method> smooth{{"nearest_farthest", {}},
                              {"nearest_farthest", {}}};  ///< phase by phase
-  std::optional<Region> smooth_region;  ///< world coordinates; only vertices inside are smoothed
+  std::optional<Region> smooth_region;    ///< world coordinates; only vertices inside are smoothed
+  std::optional<NoiseBoundParams> bound;  ///< of the smoothing; none: vertices go where it wants
 };
+
+/// What bounds a smoothing, as options and records call it.
+inline constexpr const char* kNoiseBound = "noise";
+
+/// Reads "noise" or "noise:c=2". Errors: invalid_argument.
+Result<NoiseBoundParams> parse_bound(std::string_view text);
 
 /// Whether every method is known and its parameters can be, and smooth_region has something to
 /// confine. Errors: invalid_argument.

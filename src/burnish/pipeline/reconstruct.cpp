@@ -184,8 +184,8 @@ Result<Reconstruction> reconstruct(const ScanInputs& inputs, const Recipe& recip
     return repaired.error();
   }
   const bool keep_phases = options.keep_phases || options.truth;
-  if (auto done = smooth_in_phases(*mesh, recipe.smooth, recipe.smooth_region, keep_phases, record,
-                                   context.part(0.82, 0.9));
+  if (auto done = smooth_in_phases(*mesh, recipe.smooth, {recipe.smooth_region, recipe.bound},
+                                   keep_phases, record, context.part(0.82, 0.9));
       !done) {
     return done.error();
   }

@@ -9,6 +9,7 @@
 #include "burnish/base/schema.h"
 #include "burnish/core/depth_frame.h"
 #include "burnish/core/triangle_mesh.h"
+#include "burnish/measure/noise_certificate.h"
 
 namespace burnish {
 
@@ -43,7 +44,8 @@ struct Record {
   std::vector<Step> steps;
   std::vector<Phase> phases;
   std::vector<std::pair<std::string, Facts>>
-      comparisons;                     ///< against a true surface, by phase name
+      comparisons;                              ///< against a true surface, by phase name
+  std::optional<NoiseCertificate> certificate;  ///< where smoothing was bounded by the noise
   std::optional<Viewpoint> viewpoint;  ///< of the first frame: pictures show the surface from there
   std::vector<std::string> notes;      ///< what a reader of files or a step wants to be known
   std::vector<std::pair<std::string, std::string>> versions;  ///< burnish, compiler, libraries

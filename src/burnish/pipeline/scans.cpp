@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "burnish/core/transform.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/points/estimate_normals.h"
+#include "burnish/points/sensor_noise.h"
 #include "burnish/points/unproject.h"
 #include "burnish/sensor/frame_layout.h"
 #include "burnish/sensor/pose_list.h"
@@ -53,21 +53,19 @@ class FrameScans : public Scans {
   FrameSequence frames_;
 };
 
-/// Gives the points of an organized cloud the sigma that the sensor's noise means across the
-/// surface, as unproject does for frames. The camera looks along +z from the viewpoint.
-void add_sigma(PointCloud& cloud, const Sensor& sensor) {
+/// Gives the points of an organized cloud the noise of the sensor, as unproject does for frames.
+/// The camera looks along +z from the viewpoint.
+void add_noise(PointCloud& cloud, const Sensor& sensor) {
   const Vec3d eye = cloud.viewpoint.value_or(Vec3d{}) - cloud.frame.origin;
   cloud.attributes.sigma.assign(cloud.positions.size(), 0);
+  cloud.attributes.noise.assign(cloud.positions.size(), {});
   for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
     if (!is_finite(cloud.positions[i])) continue;
     const Vec3d ray = Vec3d(cloud.positions[i]) - eye;
-    const Vec3d normal(cloud.attributes.normals[i]);
-    const double cosine =
-        normal == Vec3d{} ? 1 : std::min(1., std::abs(dot(normalized(ray), normal)));
-    const double theta = std::acos(cosine), sine = std::sin(theta);
-    const double axial = sensor.noise.axial(ray.z, theta) * cosine;
-    const double lateral = sensor.noise.lateral(ray.z, theta, sensor.camera.fx) * sine;
-    cloud.attributes.sigma[i] = static_cast<float>(std::sqrt(axial * axial + lateral * lateral));
+    const MeasuredNoise measured =
+        measured_noise(sensor.noise, sensor.camera.fx, ray.z, ray, cloud.attributes.normals[i]);
+    cloud.attributes.sigma[i] = measured.sigma;
+    cloud.attributes.noise[i] = measured.noise;
   }
 }
 
@@ -95,7 +93,7 @@ class CloudScans : public Scans {
       if (auto estimated = estimate_normals(cloud, {}, context.part(0.5, 1)); !estimated)
         return estimated.error();
     }
-    if (cloud.grid && attributes.sigma.empty()) add_sigma(cloud, sensor_);
+    if (cloud.grid && attributes.sigma.empty()) add_noise(cloud, sensor_);
     if (attributes.observations.empty()) attributes.observations.assign(cloud.positions.size(), 1);
     if (attributes.origin.empty()) attributes.origin.assign(cloud.positions.size(), Origin::seen);
     if (!poses_.empty()) cloud = transformed(std::move(cloud), poses_[i]);

@@ -78,6 +78,7 @@ CloudMeasurements::CloudMeasurements(std::span<const PointCloud> clouds) : cloud
     }
     views_.push_back(std::move(view));
     has_sigma_ = has_sigma_ && (cloud.positions.empty() || !cloud.attributes.sigma.empty());
+    has_noise_ = has_noise_ && (cloud.positions.empty() || !cloud.attributes.noise.empty());
   }
 }
 
@@ -151,15 +152,20 @@ Measurement CloudMeasurements::read(std::size_t list, std::size_t i) const {
   if (!cloud.attributes.observations.empty()) m.count = cloud.attributes.observations[i];
   const double s = sigma(list, i);
   m.weight = 1 / (deviation(s) * deviation(s));
-  m.information = 1 / (s * s);
+  double share = 1;  // of its information that no other pixel of the patch tells too
   if (view.pitch > 0) {
     const Vec3d ray = p - view.eye;
     const double facing = std::abs(dot(normalized(ray), Vec3d(m.normal)));
     const double footprint = view.pitch * norm(ray);
     const double in_patch =
         weighing_.spacing * weighing_.spacing * facing / (footprint * footprint);
-    m.information /= 1 + std::max(0.0, in_patch - 1) * weighing_.correlation;
-    if (view.outlined[i]) m.information *= kFrayedTrust;
+    share = 1 / (1 + std::max(0.0, in_patch - 1) * weighing_.correlation);
+    if (view.outlined[i]) share *= kFrayedTrust;
+  }
+  m.information = share / (s * s);
+  if (has_noise_) {
+    m.precision = precision_of(cloud.attributes.noise[i], kLeastSigma * weighing_.spacing);
+    for (double& entry : m.precision) entry *= share;
   }
   return m;
 }

@@ -20,6 +20,8 @@ class CloudMeasurements : public MeasurementSource {
   double typical_sigma() const;
   /// Whether every cloud has a sigma.
   bool has_sigma() const { return has_sigma_; }
+  /// Whether every cloud has a noise.
+  bool has_precision() const override { return has_noise_; }
   std::size_t points() const;  ///< with a position
 
   /// How measurements are to be weighed; see merge_cells.h.
@@ -50,7 +52,7 @@ class CloudMeasurements : public MeasurementSource {
 
   std::span<const PointCloud> clouds_;
   std::vector<View> views_;
-  bool has_sigma_ = true;
+  bool has_sigma_ = true, has_noise_ = true;
   Weighing weighing_;
   std::size_t step_ = 1;
 };

@@ -48,13 +48,16 @@ Result<double> estimate_registration(CloudMeasurements& measurements, double spa
 struct Patches {
   std::vector<double> information;
   std::vector<std::uint32_t> observations;
+  std::vector<Precision> precision;  ///< empty where measurements have none
 
   Patches(const SurfaceCells& cells, const std::vector<std::uint32_t>& owners, std::size_t count)
-      : information(count), observations(count) {
+      : information(count), observations(count), precision(cells.precisions.empty() ? 0 : count) {
     for (std::size_t i = 0; i < owners.size(); ++i) {
       if (owners[i] == kNoSurfel) continue;
       information[owners[i]] += cells.cells[i].information;
       observations[owners[i]] += cells.cells[i].count;
+      if (precision.empty()) continue;
+      for (std::size_t k = 0; k < 6; ++k) precision[owners[i]][k] += cells.precisions[i][k];
     }
   }
 };
@@ -71,6 +74,8 @@ PointCloud cloud_of(const Surfels& surfels, const Patches& patches,
     cloud.attributes.observations.push_back(patches.observations[i]);
     if (!has_sigma) continue;
     cloud.attributes.sigma.push_back(static_cast<float>(1 / std::sqrt(patches.information[i])));
+    if (patches.precision.empty()) continue;
+    cloud.attributes.noise.push_back(noise_within(patches.precision[i], surfels.points[i].normal));
   }
   cloud.attributes.origin.assign(cloud.positions.size(), Origin::seen);
   return cloud;

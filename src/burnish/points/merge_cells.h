@@ -40,19 +40,21 @@ struct MergeCellsParams {
 /// sigma = 1 / sqrt(sum of information), an upper estimate, as windows are wider than patches.
 /// n pixels of one image in a patch share `correlation` of their noise, so each of them adds
 /// 1 / (sigma^2 (1 + (n - 1) correlation)), n from the pixel's footprint; points of unorganized
-/// clouds count as independent. Pixels within two of an outline (of missing ones or of something a
-/// depth jump farther) may have seen what lies beside the surface: they add a sixteenth, so that
-/// they yield where other frames saw the place from within. What poses are off weighs measurements
-/// and deepens windows but is no part of sigma. It is estimated from how far measurements scatter
-/// beyond their sigma about their common surface; frames that are off by more than about three
-/// times that make a layer of their own.
+/// clouds count as independent. The noise comes of the sum of the same shares of the inverse
+/// covariances (see precision.h), where every cloud has noise: views from several sides leave a
+/// smaller region than any of them. Pixels within two of an outline (of missing ones or of
+/// something a depth jump farther) may have seen what lies beside the surface: they add a
+/// sixteenth, so that they yield where other frames saw the place from within. What poses are off
+/// weighs measurements and deepens windows but is no part of sigma. It is estimated from how far
+/// measurements scatter beyond their sigma about their common surface; frames that are off by more
+/// than about three times that make a layer of their own.
 ///
 /// Clouds need normals; points without one are left out. Without sigma in every cloud all points
-/// weigh the same and the result has no sigma. Positions are relative to the first cloud's frame;
-/// colours and channels are dropped. The result depends neither on threads nor, where frames agree,
-/// on the order of the clouds (sums are integers). O(#P log #P); about 16 bytes a point and 100 a
-/// cell. Errors: invalid_argument (no cloud, a spacing too small for the extent), bad_geometry,
-/// cancelled.
+/// weigh the same and the result has neither sigma nor noise. Positions are relative to the first
+/// cloud's frame; colours and channels are dropped. The result depends neither on threads nor,
+/// where frames agree, on the order of the clouds (sums are integers). O(#P log #P); about 16 bytes
+/// a point and 125 a cell. Errors: invalid_argument (no cloud, a spacing too small for the extent),
+/// bad_geometry, cancelled.
 Result<Merging> merge_cells(std::span<const PointCloud> clouds, const MergeCellsParams& params = {},
                             const Context& context = {});
 

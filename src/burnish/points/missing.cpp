@@ -24,6 +24,7 @@ CleaningReport take_out(PointCloud& cloud, const std::vector<std::uint8_t>& remo
     cloud.positions[i] = {kMissing, kMissing, kMissing};
     if (!attributes.normals.empty()) attributes.normals[i] = {};
     if (!attributes.sigma.empty()) attributes.sigma[i] = 0;
+    if (!attributes.noise.empty()) attributes.noise[i] = {};
     if (!attributes.observations.empty()) attributes.observations[i] = 0;
   }
   return report;

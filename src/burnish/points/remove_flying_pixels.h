@@ -23,9 +23,9 @@ struct FlyingPixelParams {
 ///   3. patches of fewer than `min_patch` pixels that depth jumps cut off from all others.
 /// A depth jump is more than three sigma and what a surface tilted by 75 degrees explains; sigma is
 /// the cloud's or, where it has none, estimated from the grid. Removed points become missing: NaN,
-/// their normals, sigma and observations 0. Without a viewpoint the origin is taken for it. O(#P).
-/// Errors: invalid_argument, bad_geometry (also where the cloud has no grid), cancelled; `cloud` is
-/// then unchanged.
+/// their normals, sigma, noise and observations 0. Without a viewpoint the origin is taken for it.
+/// O(#P). Errors: invalid_argument, bad_geometry (also where the cloud has no grid), cancelled;
+/// `cloud` is then unchanged.
 Result<CleaningReport> remove_flying_pixels(PointCloud& cloud, const FlyingPixelParams& params = {},
                                             const Context& context = {});
 

@@ -14,6 +14,7 @@ namespace {
 constexpr double kOffsetUnits = 1 << 18;  // to a cell's width
 constexpr double kWeightUnits = 1 << 10;  // to a typical weight; limits 1 and 2^20
 constexpr double kNormalUnits = 1 << 15;
+constexpr double kPrecisionUnits = 1 << 20;  // to a typical information; limit 2^40
 
 /// A measurement and the cell that it falls into.
 struct Entry {
@@ -39,6 +40,29 @@ std::int64_t weight_units(double weight, double typical) {
   const double units = std::clamp(weight / typical * kWeightUnits, 1.0, double{1 << 20});
   return static_cast<std::int64_t>(std::floor(units + 0.5));
 }
+
+/// The sum of precisions, whatever their order.
+class PrecisionSum {
+ public:
+  explicit PrecisionSum(double typical) : units_(kPrecisionUnits / typical) {}
+
+  void add(const Precision& precision) {
+    const double trace = (precision[0] + precision[1] + precision[2]) * units_;
+    const double share = std::min(1.0, double{std::int64_t{1} << 40} / trace);
+    for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += in_units(precision[i], share * units_);
+  }
+  std::array<float, 6> total() const {
+    std::array<float, 6> result{};
+    for (std::size_t i = 0; i < sum_.size(); ++i) {
+      result[i] = static_cast<float>(static_cast<double>(sum_[i]) / units_);
+    }
+    return result;
+  }
+
+ private:
+  double units_;
+  std::array<std::int64_t, 6> sum_{};
+};
 
 /// The measurements of a list by cell; false where one lies beyond the cells that can be numbered.
 bool sort_list(const MeasurementSource& source, std::size_t list, CellSize size,
@@ -110,12 +134,14 @@ Result<std::vector<Entry>> sorted_entries(const MeasurementSource& source, CellS
   return lists.empty() ? std::vector<Entry>{} : std::move(lists.front());
 }
 
-/// The mean of the measurements of one cell, by integer sums.
+/// The mean of the measurements of one cell, by integer sums; and the sum of their precisions,
+/// where there is a place for it.
 SurfaceCell mean_of(const MeasurementSource& source, std::span<const Entry> entries, CellSize size,
-                    const Measurement& typical) {
+                    const Measurement& typical, std::array<float, 6>* precision) {
   const std::size_t height_axis = entries[0].key >> (3 * ColumnIndex::kBits + 1);
   std::array<std::int64_t, 3> offset{}, normal{};
   std::int64_t weight = 0, information = 0;
+  PrecisionSum precisions(typical.information);
   Vec3d corner;  // of the cell, in cells
   SurfaceCell cell;
   for (const Entry& entry : entries) {
@@ -129,6 +155,7 @@ SurfaceCell mean_of(const MeasurementSource& source, std::span<const Entry> entr
     }
     weight += w;
     information += weight_units(m.information, typical.information);
+    if (precision) precisions.add(m.precision);
     cell.count += m.count;
   }
   Vec3d position, direction;
@@ -142,6 +169,7 @@ SurfaceCell mean_of(const MeasurementSource& source, std::span<const Entry> entr
   cell.weight = static_cast<float>(static_cast<double>(weight) / kWeightUnits * typical.weight);
   cell.information =
       static_cast<float>(static_cast<double>(information) / kWeightUnits * typical.information);
+  if (precision) *precision = precisions.total();
   cell.measured = static_cast<std::uint32_t>(entries.size());
   return cell;
 }
@@ -164,12 +192,14 @@ Result<SurfaceCells> average_in_cells(const MeasurementSource& source, double ac
 
   SurfaceCells result;
   result.cells.resize(keys.size());
+  if (source.has_precision()) result.precisions.resize(keys.size());
   const std::span<const Entry> all(*entries);
   const bool complete =
       parallel_for(context.part(0.8, 1), result.cells.size(), [&](IndexRange range) {
         for (std::size_t i = range.begin; i < range.end; ++i) {
           const auto run = all.subspan(starts[i], starts[i + 1] - starts[i]);
-          result.cells[i] = mean_of(source, run, size, typical);
+          result.cells[i] = mean_of(source, run, size, typical,
+                                    result.precisions.empty() ? nullptr : &result.precisions[i]);
         }
       });
   if (!complete) return cancelled();

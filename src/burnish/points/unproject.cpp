@@ -1,11 +1,11 @@
 #include "burnish/points/unproject.h"
 
-#include <cmath>
 #include <limits>
 
 #include "burnish/base/parallel.h"
 #include "burnish/core/transform.h"
 #include "burnish/points/organized_normals.h"
+#include "burnish/points/sensor_noise.h"
 
 namespace burnish {
 namespace {
@@ -35,19 +35,6 @@ ProjectiveGrid camera_grid(const DepthFrame& frame, const DepthRange& range) {
     grid.pixels[i] = {(column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1 / z};
   }
   return grid;
-}
-
-/// One standard deviation across the surface; see the header.
-double sigma_across(const DepthFrame& frame, double z, double theta) {
-  const double axial = frame.noise.axial(z, theta) * std::cos(theta);
-  const double lateral = frame.noise.lateral(z, theta, frame.camera.fx) * std::sin(theta);
-  return std::hypot(axial, lateral);
-}
-
-/// The angle between the ray to `point` and the line of `normal`; 0 where there is no normal.
-double incidence(const Vec3d& point, const Vec3d& eye, const Vec3f& normal) {
-  const Vec3d n(normal), ray = normalized(point - eye);
-  return squared_norm(n) > 0 ? std::acos(std::min(1.0, std::abs(dot(ray, n)))) : 0;
 }
 
 }  // namespace
@@ -82,6 +69,7 @@ Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& par
   cloud.frame = frame_near(eye);
   cloud.positions.assign(count, {kMissing, kMissing, kMissing});
   cloud.attributes.sigma.assign(count, 0);
+  cloud.attributes.noise.assign(count, {});
   cloud.attributes.observations.assign(count, 0);
   cloud.attributes.origin.assign(count, Origin::seen);
 
@@ -99,9 +87,11 @@ Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& par
       if (!(pixel.w > 0)) continue;
       const double z = frame.depth[i];
       const Vec3d point = frame.T_world_camera({pixel.u * z, pixel.v * z, z});
-      const double theta = incidence(point, eye, cloud.attributes.normals[i]);
+      const MeasuredNoise measured =
+          measured_noise(frame.noise, frame.camera.fx, z, point - eye, cloud.attributes.normals[i]);
       cloud.positions[i] = Vec3f(point - cloud.frame.origin);
-      cloud.attributes.sigma[i] = static_cast<float>(sigma_across(frame, z, theta));
+      cloud.attributes.sigma[i] = measured.sigma;
+      cloud.attributes.noise[i] = measured.noise;
       cloud.attributes.observations[i] = 1;
     }
   });

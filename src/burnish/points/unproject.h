@@ -17,15 +17,12 @@ struct UnprojectParams {
 
 /// The points that a depth camera saw, as an organized cloud in world coordinates: pixel (u, v) of
 /// depth z is T_world_camera ((u - cx) z / fx, (v - cy) z / fy, z), computed in double, kept in
-/// float around frame_near(the camera). Pixels without depth or out of range are NaN. Attributes of every pixel:
+/// float around frame_near(the camera). Pixels without depth or out of range are NaN. Attributes of
+/// every pixel:
 ///   normals       as estimate_normals gives them, towards the camera; 0 where unknown or missing
-///   sigma         one standard deviation of the position across the surface, m; 0 where missing
+///   sigma, noise  by the sensor's noise, see sensor_noise.h; 0 where missing
 ///   observations  1, and 0 where missing
 ///   origin        seen
-/// The sensor errs by axial(z, theta) along the ray and by lateral(z, theta) across it, theta being
-/// the angle between ray and normal. An error within the surface leaves the surface where it is, so
-/// the one number kept is the error's part along the normal:
-///   sigma^2 = axial^2 cos^2(theta) + lateral^2 sin^2(theta),   theta = 0 where there is no normal.
 /// O(#pixels). Errors: invalid_argument, bad_geometry, cancelled.
 Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& params = {},
                              const Context& context = {});

@@ -330,6 +330,11 @@ void write_list(HtmlWriter& html, std::string_view title, const std::vector<std:
   html.close().close();
 }
 
+/// What is certified of the smoothing, and what is not.
+void write_certificate(HtmlWriter& html, const Record& record) {
+  if (record.certificate) write_list(html, "Noise bound", sentences(*record.certificate));
+}
+
 void write_foot(HtmlWriter& html, const Record& record) {
   write_list(html, "Notes", record.notes);
   write_list(html, "Inputs", record.inputs);
@@ -356,6 +361,7 @@ Result<std::string> html_report(const Record& record, const Plates& plates,
     return done.error();
   }
   write_steps(html, record);
+  write_certificate(html, record);
   write_comparisons(html, record);
   if (auto done = write_triangles(html, record, context.part(0.7, 0.9)); !done) {
     return done.error();

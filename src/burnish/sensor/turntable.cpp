@@ -56,6 +56,10 @@ TriangleMesh scaled(const TriangleMesh& model, double scale) {
   mesh.frame.origin *= scale;
   for (Vec3f& p : mesh.positions) p = Vec3f(scale * Vec3d(p));
   for (float& sigma : mesh.attributes.sigma) sigma = static_cast<float>(scale * sigma);
+  for (PointNoise& noise : mesh.attributes.noise) {
+    noise.along = static_cast<float>(scale * noise.along);
+    noise.across = static_cast<float>(scale * noise.across);
+  }
   return mesh;
 }
 
