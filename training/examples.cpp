@@ -6,7 +6,6 @@
 #include "burnish/base/tangent_frame.h"
 #include "burnish/core/edges.h"
 #include "burnish/shapes/shapes.h"
-#include "burnish/shapes/teapot.h"
 #include "implicit_shape.h"
 
 namespace burnish::training {
