@@ -1,6 +1,7 @@
 #include "implicit_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -25,14 +26,14 @@ Vec3d random_point(Random& random, double reach) {
 }
 
 struct HalfSpace : Solid {
-  HalfSpace(const Vec3d& normal, double offset) : normal(normal), offset(offset) {}
+  HalfSpace(const Vec3d& normal_in, double offset_in) : normal(normal_in), offset(offset_in) {}
   Value at(const Vec3d& p) const override { return {dot(normal, p) - offset, kNoCrease}; }
   Vec3d normal;
   double offset;
 };
 
 struct Sphere : Solid {
-  Sphere(const Vec3d& centre, double radius) : centre(centre), radius(radius) {}
+  Sphere(const Vec3d& centre_in, double radius_in) : centre(centre_in), radius(radius_in) {}
   Value at(const Vec3d& p) const override { return {norm(p - centre) - radius, kNoCrease}; }
   Vec3d centre;
   double radius;
@@ -40,8 +41,9 @@ struct Sphere : Solid {
 
 /// Infinite, of a radius that changes along the axis: a cylinder, a cone, or a turned profile.
 struct Round : Solid {
-  Round(const Vec3d& centre, const Vec3d& axis, double radius, double taper, double wave)
-      : centre(centre), axis(axis), radius(radius), taper(taper), wave(wave) {}
+  Round(const Vec3d& centre_in, const Vec3d& axis_in, double radius_in, double taper_in,
+        double wave_in)
+      : centre(centre_in), axis(axis_in), radius(radius_in), taper(taper_in), wave(wave_in) {}
   Value at(const Vec3d& p) const override {
     const double along = dot(p - centre, axis);
     const double r = radius + taper * along + wave * std::sin(6 * along);
@@ -52,8 +54,8 @@ struct Round : Solid {
 };
 
 struct Torus : Solid {
-  Torus(const Vec3d& centre, const Vec3d& axis, double major, double minor)
-      : centre(centre), axis(axis), major(major), minor(minor) {}
+  Torus(const Vec3d& centre_in, const Vec3d& axis_in, double major_in, double minor_in)
+      : centre(centre_in), axis(axis_in), major(major_in), minor(minor_in) {}
   Value at(const Vec3d& p) const override {
     const double along = dot(p - centre, axis);
     const double across = norm(p - centre - along * axis) - major;
@@ -65,8 +67,8 @@ struct Torus : Solid {
 
 /// Waves on the surface of another solid.
 struct Wavy : Solid {
-  Wavy(SolidPtr solid, double height, const Vec3d& wave)
-      : solid(solid), height(height), wave(wave) {}
+  Wavy(SolidPtr solid_in, double height_in, const Vec3d& wave_in)
+      : solid(solid_in), height(height_in), wave(wave_in) {}
   Value at(const Vec3d& p) const override {
     Value v = solid->at(p);
     v.f += height * std::sin(wave.x * p.x) * std::sin(wave.y * p.y) * std::sin(wave.z * p.z);
@@ -79,7 +81,7 @@ struct Wavy : Solid {
 
 /// What is in both; with `blend` > 0 their edge is rounded.
 struct Both : Solid {
-  Both(SolidPtr a, SolidPtr b, double blend) : a(a), b(b), blend(blend) {}
+  Both(SolidPtr a_in, SolidPtr b_in, double blend_in) : a(a_in), b(b_in), blend(blend_in) {}
   Value at(const Vec3d& p) const override {
     const Value u = a->at(p), v = b->at(p);
     const double apart = std::abs(u.f - v.f);
@@ -93,7 +95,7 @@ struct Both : Solid {
 };
 
 struct Outside : Solid {
-  explicit Outside(SolidPtr solid) : solid(solid) {}
+  explicit Outside(SolidPtr solid_in) : solid(solid_in) {}
   Value at(const Vec3d& p) const override {
     const Value v = solid->at(p);
     return {-v.f, v.crease};
