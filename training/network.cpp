@@ -37,24 +37,10 @@ void initialize(FusionNetwork& network, Random& random) {
 void backpropagate(const FusionNetwork& network, const float* features, const Vec3f& truth,
                    FusionNetwork& gradient) {
   constexpr std::size_t H = kFusionHidden, N = kFusionInputs;
-  std::array<float, H> first, second, by_first{}, by_second{};
-  std::copy_n(network.first.data() + N * H, H, first.data());
-  for (std::size_t i = 0; i < N; ++i) {
-    const float x = features[i];
-    for (std::size_t o = 0; o < H; ++o) first[o] += x * network.first[i * H + o];
-  }
-  for (float& v : first) v = std::max(v, 0.f);
-  std::copy_n(network.second.data() + H * H, H, second.data());
-  for (std::size_t i = 0; i < H; ++i) {
-    const float x = first[i];
-    for (std::size_t o = 0; o < H; ++o) second[o] += x * network.second[i * H + o];
-  }
-  for (float& v : second) v = std::max(v, 0.f);
-  float turn_x = network.last[2 * H], turn_y = network.last[2 * H + 1];
-  for (std::size_t i = 0; i < H; ++i) {
-    turn_x += second[i] * network.last[2 * i];
-    turn_y += second[i] * network.last[2 * i + 1];
-  }
+  const std::span<const float, N> seen(features, N);
+  const auto [first, second, turn] = evaluate(network, seen);
+  const auto [turn_x, turn_y] = turn;
+  std::array<float, H> by_first{}, by_second{};
   const float squared = 1 + turn_x * turn_x + turn_y * turn_y, length = std::sqrt(squared);
   const float cosine = (turn_x * truth.x + turn_y * truth.y + truth.z) / length;
   const float loss = std::sqrt(std::max(0.f, 2 - 2 * cosine) + kRounding);

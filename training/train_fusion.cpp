@@ -122,6 +122,7 @@ int run(int argc, char** argv) {
     return sum / static_cast<double>(held_out.size());
   };
   std::vector<FusionNetwork> stages;
+  double before = mean_held_out();
   for (std::size_t s = 0; s < kFusionStages; ++s) {
     Samples samples;
     Random random(params.seed + 7);
@@ -133,12 +134,13 @@ int run(int argc, char** argv) {
     std::printf("stage %zu: %zu samples, trained to %.2f, %.0f s\n", s + 1, samples.size(),
                 mean_error(stages.back(), samples), seconds());
     for (const auto& work : works) apply(*work, stages.back());
-    const double before = mean_held_out();
     for (const auto& work : held_out) {
       (void)work->stage->look({}, work->positions);
       apply(*work, stages.back());
     }
-    std::printf("held out: %.2f -> %.2f\n", before, mean_held_out());
+    const double after = mean_held_out();
+    std::printf("held out: %.2f -> %.2f\n", before, after);
+    before = after;
     std::fflush(stdout);
   }
   std::FILE* file = std::fopen(argv[1], "w");

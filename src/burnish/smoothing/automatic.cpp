@@ -1,7 +1,5 @@
 #include "burnish/smoothing/automatic.h"
 
-#include <array>
-
 #include "burnish/smoothing/fusion_stage.h"
 #include "burnish/smoothing/fusion_weights.h"
 #include "burnish/smoothing/vertex_update.h"
@@ -16,7 +14,8 @@ const Schema<AutoParams>& AutoParams::schema() {
 }
 
 Result<SmoothingReport> smooth_auto(TriangleMesh& mesh, const AutoParams& params,
-                                    const Context& context) {
+                                    const Context& caller) {
+  const Context context = for_passes_over(mesh.triangles.size(), caller);
   if (auto valid = AutoParams::schema().check(params); !valid) return valid.error();
   const Result<FaceWork> work = begin_face_work(mesh, context.part(0, 0.1));
   if (!work) return work.error();

@@ -1,7 +1,6 @@
 #include "burnish/smoothing/normal_candidates.h"
 
 #include <algorithm>
-#include <array>
 
 #include "burnish/smoothing/normal_filter.h"
 
@@ -21,6 +20,12 @@ const std::vector<Chain>& chains() {
   return list;
 }
 
+int all_passes() {
+  int sum = 0;
+  for (const Chain& chain : chains()) sum += chain.kept_after.back();
+  return sum;
+}
+
 }  // namespace
 
 bool normal_candidates(const FaceGeometry& faces, const Adjacency& around, const Context& context,
@@ -35,14 +40,14 @@ bool normal_candidates(const FaceGeometry& faces, const Adjacency& around, const
   };
   keep(faces.normals);
   FaceNormals normals, next;
+  const double passes = all_passes();
   double done = 0;
   for (const Chain& chain : chains()) {
     normals = faces.normals;
     for (int i = 1; i <= chain.kept_after.back(); ++i) {
       const std::span<const Quad> guidance = chain.width > 0 ? normals : std::span<const Quad>{};
       const NormalKernel kernel{.sigma_c = kReach, .sigma_s = chain.width};
-      constexpr double kPasses = 24;
-      const Context share = context.part(done / kPasses, (done + 1) / kPasses);
+      const Context share = context.part(done / passes, (done + 1) / passes);
       if (!filter_normals(share, around, faces.centroids, guidance, kernel, normals, next)) {
         return false;
       }

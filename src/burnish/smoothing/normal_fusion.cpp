@@ -37,21 +37,21 @@ FusionFrame frame_of(const FusionInput& input, std::size_t f) {
   frame.z = unit_or(mean, {0, 0, 1, 0});
   const Quad u = across(frame.z), v = cross3(frame.z, u);
   float uu = 0, uv = 0, vv = 0, lean_u = 0, lean_v = 0, rank = 0;
-  const auto add = [&](const Quad& n, float weight) {
+  const auto add = [&](const Quad& n) {
     const float a = dot3(n, u), b = dot3(n, v);
-    uu += weight * a * a;
-    uv += weight * a * b;
-    vv += weight * b * b;
+    uu += a * a;
+    uv += a * b;
+    vv += b * b;
   };
   for (const Quad& c : candidates) {
-    add(c, 1);
+    add(c);
     // Across their mean the candidates add up to 0: the later ones count more.
     rank += 1;
     lean_u += rank * dot3(c, u);
     lean_v += rank * dot3(c, v);
   }
   for (const std::uint32_t g : input.around->row(f)) {
-    if (g != f) add(input.candidates->of(g)[NormalCandidates::kTwice], 1);
+    if (g != f) add(input.candidates->of(g)[NormalCandidates::kTwice]);
   }
   // The axis of the larger variance, by half angles: no arc functions.
   const float difference = uu - vv, length = std::sqrt(difference * difference + 4 * uv * uv);
@@ -136,9 +136,9 @@ FusionFrame fusion_features(const FusionInput& input, std::size_t f,
   return frame;
 }
 
-Quad fused_normal(const FusionNetwork& network, std::span<const float, kFusionInputs> features,
-                  const FusionFrame& frame) {
-  std::array<float, kFusionHidden> first, second;
+FusionLayers evaluate(const FusionNetwork& network,
+                      std::span<const float, kFusionInputs> features) {
+  FusionLayers layers;
   const auto layer = [](std::span<const float> weights, std::span<const float> in,
                         std::span<float> out) {
     std::copy_n(weights.data() + in.size() * out.size(), out.size(), out.data());
@@ -151,12 +151,17 @@ Quad fused_normal(const FusionNetwork& network, std::span<const float, kFusionIn
   const auto rectify = [](std::span<float> values) {
     for (float& v : values) v = std::max(v, 0.f);
   };
-  std::array<float, 2> turn;
-  layer(network.first, features, first);
-  rectify(first);
-  layer(network.second, first, second);
-  rectify(second);
-  layer(network.last, second, turn);
+  layer(network.first, features, layers.first);
+  rectify(layers.first);
+  layer(network.second, layers.first, layers.second);
+  rectify(layers.second);
+  layer(network.last, layers.second, layers.turn);
+  return layers;
+}
+
+Quad fused_normal(const FusionNetwork& network, std::span<const float, kFusionInputs> features,
+                  const FusionFrame& frame) {
+  const auto turn = evaluate(network, features).turn;
   return unit_or(frame.z + turn[0] * frame.x + turn[1] * frame.y, frame.z);
 }
 

@@ -59,6 +59,14 @@ struct FusionNetwork {
   std::array<float, (kFusionHidden + 1) * 2> last;
 };
 
+/// What comes out of each layer.
+struct FusionLayers {
+  std::array<float, kFusionHidden> first, second;
+  std::array<float, 2> turn;  ///< o_x, o_y
+};
+
+FusionLayers evaluate(const FusionNetwork& network, std::span<const float, kFusionInputs> features);
+
 /// The normal that the network sees in the features: z + o_x x + o_y y, of unit length.
 Quad fused_normal(const FusionNetwork& network, std::span<const float, kFusionInputs> features,
                   const FusionFrame& frame);
