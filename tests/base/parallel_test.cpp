@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstring>
+#include <fstream>
 #include <numeric>
 #include <thread>
 
@@ -48,6 +49,26 @@ TEST(ParallelFor, NeverRunsOnMoreThreadsThanAllowed) {
       1));
   EXPECT_GE(most, 1);
   EXPECT_LE(most, 2);
+}
+
+/// Resident memory of this process, bytes; 0 where the system does not tell.
+std::size_t resident() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t pages = 0, in_memory = 0;
+  file >> pages >> in_memory;
+  return in_memory * 4096;
+}
+
+TEST(ParallelFor, AsksForNoMoreMemoryHoweverManyLoopsThereAre) {
+  const auto loops = [](int count) {
+    for (int i = 0; i < count; ++i) {
+      ASSERT_TRUE(parallel_for(with_threads(2), 2, [](IndexRange) {}, 1));
+    }
+  };
+  loops(1000);
+  const std::size_t before = resident();
+  loops(10000);
+  EXPECT_LT(resident(), before + (10000 * sizeof(void*)) * 10);  // less than ten words a loop
 }
 
 TEST(ParallelFor, LeavesChunksOutOnceCancelled) {
