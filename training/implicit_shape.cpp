@@ -175,8 +175,8 @@ Vec3d gradient(const Solid& solid, const Vec3d& p, double Solid::Value::*part) {
   return g;
 }
 
-/// Moves `p` onto the surface, or, where two surfaces meet within `reach`, onto their edge.
-bool project(const Solid& solid, double reach, Vec3d& p, bool& sharp) {
+/// Moves `p` onto the surface; false where the gradient gives no direction.
+bool descend(const Solid& solid, Vec3d& p) {
   for (int i = 0; i < 12; ++i) {
     const Solid::Value v = solid.at(p);
     const Vec3d g = gradient(solid, p, &Solid::Value::f);
@@ -185,6 +185,12 @@ bool project(const Solid& solid, double reach, Vec3d& p, bool& sharp) {
     if (std::abs(v.f) < 1e-9) break;
     p = p - (v.f / squared) * g;
   }
+  return true;
+}
+
+/// Moves `p` onto the surface, or, where two surfaces meet within `reach`, onto their edge.
+bool project(const Solid& solid, double reach, Vec3d& p, bool& sharp) {
+  if (!descend(solid, p)) return false;
   sharp = false;
   if (solid.at(p).crease < reach) {
     const Vec3d flat = p;
@@ -271,6 +277,11 @@ SolidPtr random_solid(Random& random) {
     solid = std::make_shared<Wavy>(solid, random.uniform(0.01, 0.06), Vec3d{x, y, z});
   }
   return solid;
+}
+
+Vec3d nearest_on(const Solid& solid, Vec3d p) {
+  descend(solid, p);
+  return p;
 }
 
 TriangleMesh surface_of(const Solid& solid, double spacing, Random& random) {

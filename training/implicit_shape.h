@@ -25,6 +25,9 @@ using SolidPtr = std::shared_ptr<const Solid>;
 /// about the unit ball.
 SolidPtr random_solid(Random& random);
 
+/// A point of the surface near `p`, found along the gradient.
+Vec3d nearest_on(const Solid& solid, Vec3d p);
+
 /// The surface of `solid` with vertices about `spacing` apart, on its sharp edges too, in an
 /// irregular triangulation.
 TriangleMesh surface_of(const Solid& solid, double spacing, Random& random);

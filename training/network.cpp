@@ -13,7 +13,7 @@ namespace burnish::training {
 namespace {
 
 constexpr std::size_t kBatch = 512, kChunk = 128;
-constexpr float kRounding = 1e-3f;  // of the loss near 0
+constexpr float kRounding = 1e-5f;  // of the loss near 0
 constexpr std::size_t kWeights = sizeof(FusionNetwork) / sizeof(float);
 
 float* weights_of(FusionNetwork& network) {
@@ -30,29 +30,40 @@ void initialize(FusionNetwork& network, Random& random) {
   };
   fill(network.first, kFusionInputs, kFusionHidden, 1);
   fill(network.second, kFusionHidden, kFusionHidden, 1);
-  fill(network.last, kFusionHidden, 2, 0.1);
+  fill(network.last, kFusionHidden, kFusionOutputs, 0.1);
 }
 
 /// Adds the gradient of one sample's loss.
-void backpropagate(const FusionNetwork& network, const float* features, const Vec3f& truth,
+void backpropagate(const FusionNetwork& network, const FusionFeatures& features, const Vec3f& truth,
                    FusionNetwork& gradient) {
-  constexpr std::size_t H = kFusionHidden, N = kFusionInputs;
-  const std::span<const float, N> seen(features, N);
-  const auto [first, second, turn] = evaluate(network, seen);
-  const auto [turn_x, turn_y] = turn;
+  constexpr std::size_t H = kFusionHidden, N = kFusionInputs, O = kFusionOutputs;
+  const auto [first, second, last] = evaluate(network, features.seen);
+  const auto [turn_x, turn_y] = blend(features, last);
   std::array<float, H> by_first{}, by_second{};
+  std::array<float, O> by_last{};
   const float squared = 1 + turn_x * turn_x + turn_y * turn_y, length = std::sqrt(squared);
   const float cosine = (turn_x * truth.x + turn_y * truth.y + truth.z) / length;
   const float loss = std::sqrt(std::max(0.f, 2 - 2 * cosine) + kRounding);
   const float by_x = -(truth.x / length - cosine * turn_x / squared) / loss;
   const float by_y = -(truth.y / length - cosine * turn_y / squared) / loss;
-  for (std::size_t i = 0; i < H; ++i) {
-    gradient.last[2 * i] += by_x * second[i];
-    gradient.last[2 * i + 1] += by_y * second[i];
-    by_second[i] = second[i] > 0 ? by_x * network.last[2 * i] + by_y * network.last[2 * i + 1] : 0;
+  for (std::size_t k = 0; k < kFusionBlended; ++k) {
+    by_last[k] = by_x * features.x[k] + by_y * features.y[k];
   }
-  gradient.last[2 * H] += by_x;
-  gradient.last[2 * H + 1] += by_y;
+  by_last[kFusionBlended] = by_x;
+  by_last[kFusionBlended + 1] = by_y;
+  for (std::size_t i = 0; i < H; ++i) {
+    const float x = second[i];
+    if (!(x > 0)) continue;
+    const float* const row = network.last.data() + i * O;
+    float* const to = gradient.last.data() + i * O;
+    float sum = 0;
+    for (std::size_t o = 0; o < O; ++o) {
+      to[o] += x * by_last[o];
+      sum += by_last[o] * row[o];
+    }
+    by_second[i] = sum;
+  }
+  for (std::size_t o = 0; o < O; ++o) gradient.last[H * O + o] += by_last[o];
   for (std::size_t i = 0; i < H; ++i) {
     const float x = first[i];
     if (!(x > 0)) continue;
@@ -69,7 +80,7 @@ void backpropagate(const FusionNetwork& network, const float* features, const Ve
   }
   for (std::size_t o = 0; o < H; ++o) gradient.second[H * H + o] += by_second[o];
   for (std::size_t i = 0; i < N; ++i) {
-    const float x = features[i];
+    const float x = features.seen[i];
     float* const to = gradient.first.data() + i * H;
     for (std::size_t o = 0; o < H; ++o) to[o] += x * by_first[o];
   }
@@ -99,8 +110,7 @@ FusionNetwork train(const Samples& samples, const TrainingParams& params, const 
               std::fill_n(weights_of(gradients[chunk]), kWeights, 0.f);
               for (std::size_t i = 0; i < kChunk; ++i) {
                 const std::size_t s = order[batch * kBatch + chunk * kChunk + i];
-                backpropagate(network, samples.features.data() + s * kFusionInputs,
-                              samples.truth[s], gradients[chunk]);
+                backpropagate(network, samples.features[s], samples.truth[s], gradients[chunk]);
               }
             }
           },
@@ -125,10 +135,8 @@ FusionNetwork train(const Samples& samples, const TrainingParams& params, const 
 double mean_error(const FusionNetwork& network, const Samples& samples) {
   double sum = 0;
   for (std::size_t s = 0; s < samples.size(); ++s) {
-    const std::span<const float, kFusionInputs> features(
-        samples.features.data() + s * kFusionInputs, kFusionInputs);
     const FusionFrame frame{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
-    const Vec3d n(fused_normal(network, features, frame).xyz());
+    const Vec3d n(fused_normal(network, samples.features[s], frame).xyz());
     sum += std::acos(std::clamp(dot(n, Vec3d(samples.truth[s])), -1.0, 1.0));
   }
   return sum / static_cast<double>(std::max<std::size_t>(samples.size(), 1)) * 180 /

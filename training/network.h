@@ -10,8 +10,8 @@ namespace burnish::training {
 
 /// Faces as the network sees them, and what it should answer.
 struct Samples {
-  std::vector<float> features;  ///< kFusionInputs each
-  std::vector<Vec3f> truth;     ///< the true normal in the frame of the features
+  std::vector<FusionFeatures> features;
+  std::vector<Vec3f> truth;  ///< the true normal in the frame of the features
 
   std::size_t size() const { return truth.size(); }
 };

@@ -63,19 +63,20 @@ double error_of(const Work& work) {
 /// Adds a share of the faces to what the network learns from.
 void add_samples(const Work& work, double share, Random& random, Samples& samples) {
   const FusionInput input = work.stage->input();
-  std::array<float, kFusionInputs> features;
+  FusionFeatures features;
   for (std::size_t f = 0; f < work.truth.size(); ++f) {
     const Quad truth = work.truth[f];
     if (random.uniform() >= share || dot3(truth, truth) == 0) continue;
     const FusionFrame frame = fusion_features(input, f, features);
-    samples.features.insert(samples.features.end(), features.begin(), features.end());
+    samples.features.push_back(features);
     samples.truth.push_back({dot3(truth, frame.x), dot3(truth, frame.y), dot3(truth, frame.z)});
   }
 }
 
 void apply(Work& work, const FusionNetwork& network) {
   (void)work.stage->fuse({}, network);
-  VertexUpdate update(work.mesh, work.faces.faces_of_vertices, {}, {});
+  VertexUpdate update(work.mesh, work.faces.faces_of_vertices, {.boundary = BoundaryRule::free},
+                      {});
   (void)update.run({}, work.stage->normals(), kFusionVertexPasses, work.positions);
 }
 
@@ -111,10 +112,10 @@ int run(int argc, char** argv) {
     }
     return works;
   };
-  auto works = make(count, params.seed), held_out = make(16, params.seed + 1000);
+  auto works = make(count, params.seed), held_out = make(32, params.seed + 1000);
   std::size_t faces = 0;
   for (const auto& work : works) faces += work->truth.size();
-  const double share = std::min(1.0, 800000.0 / static_cast<double>(faces));
+  const double share = std::min(1.0, 1200000.0 / static_cast<double>(faces));
   std::printf("%zu faces, %.0f s\n", faces, seconds());
   const auto mean_held_out = [&] {
     double sum = 0;

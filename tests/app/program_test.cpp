@@ -86,6 +86,18 @@ TEST(Program, RefusesWhatItDoesNotKnow) {
   }
 }
 
+TEST(Program, SmoothsByAutoWhereNoMethodIsNamed) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "noisy.ply", test::with_noise(make_sphere(1, 3), 0.02, 1)));
+  const std::string in = folder / "noisy.ply", unnamed = folder / "a.ply", named = folder / "b.ply";
+  ASSERT_EQ(burnish({"smooth", in, "-o", unnamed}).status, 0);
+  ASSERT_EQ(burnish({"smooth", in, "-o", named, "--method", "auto"}).status, 0);
+  const auto before = read_mesh(in), by_default = read_mesh(unnamed), by_name = read_mesh(named);
+  ASSERT_TRUE(before && by_default && by_name);
+  EXPECT_EQ(by_default->positions, by_name->positions);
+  EXPECT_NE(by_default->positions, before->positions);
+}
+
 TEST(Program, NamesTheFileThatIsMissingOrDamaged) {
   const TemporaryFolder folder;
   const Outcome missing = burnish({"convert", folder / "none.ply", folder / "out.ply"});

@@ -72,11 +72,12 @@ TEST(FilterNormals, WithoutGuidanceIsDiffusion) {
   ASSERT_TRUE(work);
   FaceGeometry faces;
   ASSERT_TRUE(measure_faces({}, sphere.triangles, work->surface.positions, faces));
+  const Adjacency& around = work->vertex_neighbours;
+  std::vector<float> weights;
+  ASSERT_TRUE(near_weights({}, around, faces, 1, weights));
   FaceNormals plain, wide;
-  ASSERT_TRUE(
-      filter_normals({}, work->vertex_neighbours, faces.centroids, {}, {}, faces.normals, plain));
-  ASSERT_TRUE(filter_normals({}, work->vertex_neighbours, faces.centroids, faces.normals,
-                             {.sigma_s = 1e4f}, faces.normals, wide));
+  ASSERT_TRUE(filter_normals({}, around, weights, {}, 1, faces.normals, plain));
+  ASSERT_TRUE(filter_normals({}, around, weights, faces.normals, 1e4f, faces.normals, wide));
   for (std::size_t f = 0; f < plain.size(); ++f) {
     EXPECT_LT(norm(Vec3d(plain[f].xyz()) - Vec3d(wide[f].xyz())), 5e-7);
     EXPECT_NEAR(dot3(plain[f], plain[f]), 1, 3e-7);

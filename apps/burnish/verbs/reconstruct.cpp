@@ -121,7 +121,7 @@ Action add_reconstruct(CLI::App& app) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   add_method(verb, "--repair", options->repair, "repair", "repair the mesh; none: do not");
   add_method(verb, "--smooth", options->smooth, "smooth",
-             "smooth the mesh; repeat it for one phase after another; none: do not");
+             "smooth the mesh; default: auto; repeat it for one phase after another; none: do not");
   verb->add_option(
       "--smooth_region", options->smooth_region,
       "smooth only vertices in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");

@@ -13,7 +13,7 @@ namespace {
 struct Options {
   std::string input, output, region, bound;
   ReportOutput report;
-  std::vector<std::string> methods;
+  std::vector<std::string> methods{"auto"};
 };
 
 Result<void> smooth(const Options& options, const Session& session, const Context& context) {
@@ -60,8 +60,7 @@ Action add_smooth(CLI::App& app) {
   verb->add_option("-o,--output", options->output, "the file to write; its ending names the format")
       ->required();
   add_method(verb, "-m,--method", options->methods, "smooth",
-             "how; repeat it for one phase after another")
-      ->required();
+             "how; repeat it for one phase after another; default: auto, which needs no setting");
   verb->add_option(
       "--region", options->region,
       "smooth only vertices in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");
@@ -74,6 +73,7 @@ Action add_smooth(CLI::App& app) {
       "1 leaves it free, 0.3 lets it make three tenths of every move. With --region it counts "
       "inside.\n"
       "Examples:\n"
+      "  burnish smooth scan.ply -o smooth.ply\n"
       "  burnish smooth scan.ply -o smooth.ply --method one_ring_mean:iterations=5 "
       "--region sphere:0,0,0.3,5cm\n"
       "  burnish smooth scan.ply -o smooth.ply --method gaussian:iterations=5 --bound noise:c=2\n"

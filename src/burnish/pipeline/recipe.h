@@ -17,8 +17,7 @@ struct Recipe {
   std::vector<Method> clean_merged{{"outliers", {}}};     ///< the merged cloud
   std::optional<Method> triangulate;  ///< none: organized for one organized scan, else global
   std::vector<Method> repair{{"small_components", {}}};
-  std::vector<Method> smooth{{"nearest_farthest", {}},
-                             {"nearest_farthest", {}}};  ///< phase by phase
+  std::vector<Method> smooth{{"auto", {}}};  ///< phase by phase
   std::optional<Region> smooth_region;    ///< world coordinates; only vertices inside are smoothed
   std::optional<NoiseBoundParams> bound;  ///< of the smoothing; none: vertices go where it wants
 };

@@ -7,6 +7,11 @@
 #include "burnish/smoothing/vertex_update.h"
 
 namespace burnish {
+namespace {
+
+constexpr float kReach = 1;  // sigma_c, in units of FaceSurface
+
+}  // namespace
 
 const Schema<BilateralNormalParams>& BilateralNormalParams::schema() {
   using P = BilateralNormalParams;
@@ -33,15 +38,18 @@ Result<SmoothingReport> smooth_bilateral_normal(TriangleMesh& mesh,
   if (!work) return work.error();
   std::vector<Vec3d> positions = work->surface.positions;
   FaceGeometry faces;
-  if (!measure_faces(context.part(0.1, 0.15), mesh.triangles, positions, faces)) return cancelled();
-
-  const NormalKernel kernel{.sigma_c = 1, .sigma_s = static_cast<float>(params.sigma_s)};
+  std::vector<float> weights;
+  if (!measure_faces(context.part(0.1, 0.14), mesh.triangles, positions, faces) ||
+      !near_weights(context.part(0.14, 0.15), work->vertex_neighbours, faces, kReach, weights)) {
+    return cancelled();
+  }
+  const auto sigma_s = static_cast<float>(params.sigma_s);
   FaceNormals filtered;
   const Context normal_share = context.part(0.15, 0.7);
   for (int i = 0; i < params.iterations; ++i) {
     const Context share = normal_share.part(static_cast<double>(i) / params.iterations,
                                             (i + 1.0) / params.iterations);
-    if (!filter_normals(share, work->vertex_neighbours, faces.centroids, faces.normals, kernel,
+    if (!filter_normals(share, work->vertex_neighbours, weights, faces.normals, sigma_s,
                         faces.normals, filtered)) {
       return cancelled();
     }

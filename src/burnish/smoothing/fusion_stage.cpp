@@ -14,14 +14,14 @@ bool FusionStage::look(const Context& context, const std::vector<Vec3d>& positio
 }
 
 FusionInput FusionStage::input() const {
-  return {&candidates_, &work_.vertex_neighbours, roughness_, first_, last_};
+  return {&candidates_, &faces_, &work_.vertex_neighbours, roughness_, first_, last_};
 }
 
 bool FusionStage::fuse(const Context& context, const FusionNetwork& network) {
   FaceNormals fused(faces_.normals.size());
   const FusionInput seen = input();
   const bool complete = parallel_for(context, fused.size(), [&](IndexRange range) {
-    std::array<float, kFusionInputs> features;
+    FusionFeatures features;
     for (std::size_t f = range.begin; f < range.end; ++f) {
       const FusionFrame frame = fusion_features(seen, f, features);
       fused[f] = fused_normal(network, features, frame);

@@ -10,7 +10,7 @@ namespace burnish {
 /// Independent from vertex to vertex; or correlated between neighbours, as depth cameras make it.
 enum class Noise { white, camera };
 
-inline constexpr std::size_t kFusionStages = 2;
+inline constexpr std::size_t kFusionStages = 3;
 /// Passes over the vertices after each stage.
 inline constexpr int kFusionVertexPasses = 15;
 

@@ -7,6 +7,11 @@
 #include "burnish/smoothing/vertex_update.h"
 
 namespace burnish {
+namespace {
+
+constexpr float kReach = 1;  // sigma_c, in units of FaceSurface
+
+}  // namespace
 
 const Schema<GuidedNormalParams>& GuidedNormalParams::schema() {
   using P = GuidedNormalParams;
@@ -46,7 +51,8 @@ Result<SmoothingReport> smooth_guided_normal(TriangleMesh& mesh, const GuidedNor
   VertexUpdate update(mesh, work->faces_of_vertices,
                       {.boundary = params.boundary, .equalizing = params.equalizing},
                       work->follows);
-  const NormalKernel kernel{.sigma_c = 1, .sigma_s = static_cast<float>(params.sigma_r)};
+  const auto sigma_r = static_cast<float>(params.sigma_r);
+  std::vector<float> weights;
   std::vector<Quad> guidance;
   FaceNormals filtered;
   const Context rounds = context.part(0.1, 1);
@@ -55,8 +61,9 @@ Result<SmoothingReport> smooth_guided_normal(TriangleMesh& mesh, const GuidedNor
         rounds.part(static_cast<double>(i) / params.iterations, (i + 1.0) / params.iterations);
     if (!measure_faces(share.part(0, 0.05), mesh.triangles, positions, faces) ||
         !patches.find(share.part(0.05, 0.35), faces.normals, guidance) ||
-        !filter_normals(share.part(0.35, 0.5), ball, faces.centroids, guidance, kernel,
-                        faces.normals, filtered) ||
+        !near_weights(share.part(0.35, 0.4), ball, faces, kReach, weights) ||
+        !filter_normals(share.part(0.4, 0.5), ball, weights, guidance, sigma_r, faces.normals,
+                        filtered) ||
         !update.run(share.part(0.5, 1), filtered, params.vertex_iterations, positions)) {
       return cancelled();
     }

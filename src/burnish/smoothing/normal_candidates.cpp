@@ -39,16 +39,18 @@ bool normal_candidates(const FaceGeometry& faces, const Adjacency& around, const
     ++place;
   };
   keep(faces.normals);
+  std::vector<float> weights;
+  if (!near_weights(context.part(0, 0.05), around, faces, kReach, weights)) return false;
   FaceNormals normals, next;
+  const Context filtering = context.part(0.05, 1);
   const double passes = all_passes();
   double done = 0;
   for (const Chain& chain : chains()) {
     normals = faces.normals;
     for (int i = 1; i <= chain.kept_after.back(); ++i) {
       const std::span<const Quad> guidance = chain.width > 0 ? normals : std::span<const Quad>{};
-      const NormalKernel kernel{.sigma_c = kReach, .sigma_s = chain.width};
-      const Context share = context.part(done / passes, (done + 1) / passes);
-      if (!filter_normals(share, around, faces.centroids, guidance, kernel, normals, next)) {
+      const Context share = filtering.part(done / passes, (done + 1) / passes);
+      if (!filter_normals(share, around, weights, guidance, chain.width, normals, next)) {
         return false;
       }
       std::swap(normals, next);

@@ -15,7 +15,8 @@ namespace burnish {
 struct NormalCandidates {
   static constexpr std::size_t kCount = 9;
   /// Their places in a row.
-  static constexpr std::size_t kRaw = 0, kOnce = 1, kTwice = 2, kFourTimes = 3, kEightTimes = 4;
+  static constexpr std::size_t kRaw = 0, kOnce = 1, kTwice = 2, kFourTimes = 3, kEightTimes = 4,
+                               kNarrow = 6;
 
   std::vector<Quad> normals;  ///< #T * kCount
 

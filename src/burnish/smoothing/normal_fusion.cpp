@@ -67,6 +67,73 @@ FusionFrame frame_of(const FusionInput& input, std::size_t f) {
   return frame;
 }
 
+/// What a face's neighbours show in its frame.
+struct Surroundings {
+  /// Means of one candidate's x or y over the neighbours on the sides +x, -x, +y and -y, those
+  /// farther to a side counting more.
+  std::array<Quad, kFusionSides / 4> sides;
+  std::array<float, 4> spread{};  ///< root mean squares of their own x and y, and of a smooth one's
+  float mean_area = 0;
+};
+
+Surroundings surroundings(const FusionInput& input, std::size_t f, const FusionFrame& frame) {
+  constexpr float kNothing = 1e-6f;
+  const auto row = input.around->row(f);
+  const Quad centre = input.faces->centroids[f];
+  Surroundings result;
+  Quad squares, shares(kNothing);
+  float areas = kNothing;
+  for (const std::uint32_t g : row) {
+    if (g == f) continue;
+    const auto of_g = input.candidates->of(g);
+    const Quad& own = of_g[NormalCandidates::kRaw];
+    const Quad& smooth = of_g[NormalCandidates::kFourTimes];
+    const Quad& narrow = of_g[NormalCandidates::kNarrow];
+    const Quad away = input.faces->centroids[g] - centre;
+    const float x = dot3(away, frame.x), y = dot3(away, frame.y);
+    const float smooth_x = dot3(smooth, frame.x), smooth_y = dot3(smooth, frame.y);
+    const Quad across(dot3(own, frame.x), dot3(own, frame.y), smooth_x, smooth_y);
+    squares += own.w() * across * across;
+    areas += own.w();
+    const Quad share = own.w() * larger(Quad(x, -x, y, -y), Quad());
+    shares += share;
+    result.sides[0] += smooth_x * share;
+    result.sides[1] += smooth_y * share;
+    result.sides[2] += dot3(narrow, frame.x) * share;
+    result.sides[3] += dot3(narrow, frame.y) * share;
+  }
+  for (Quad& sides : result.sides) sides = Quad(sides.lanes / shares.lanes);
+  for (int i = 0; i < 4; ++i) {
+    result.spread[static_cast<std::size_t>(i)] = std::sqrt(squares[i] / areas);
+  }
+  result.mean_area = areas / static_cast<float>(std::max<std::size_t>(row.size(), 2) - 1);
+  return result;
+}
+
+/// A layer of linear units. A few outputs at a time, so that their sums stay in registers.
+template <std::size_t kCount>
+void linear_layer(std::span<const float> weights, std::span<const float> in,
+                  std::array<float, kCount>& out) {
+  constexpr std::size_t kAtOnce = kCount % 32 == 0 ? 8 : 4;
+  static_assert(kCount % (4 * kAtOnce) == 0);
+  for (std::size_t o = 0; o < kCount; o += 4 * kAtOnce) {
+    const float* row = weights.data() + o;
+    std::array<Quad, kAtOnce> sums;
+    for (std::size_t k = 0; k < kAtOnce; ++k) {
+      sums[k] = Quad::load(row + in.size() * kCount + 4 * k);
+    }
+    for (const float x : in) {
+      for (std::size_t k = 0; k < kAtOnce; ++k) sums[k] += x * Quad::load(row + 4 * k);
+      row += kCount;
+    }
+    for (std::size_t k = 0; k < kAtOnce; ++k) sums[k].store(&out[o + 4 * k]);
+  }
+}
+
+void rectify(std::span<float> values) {
+  for (float& v : values) v = std::max(v, 0.f);
+}
+
 }  // namespace
 
 Roughness roughness(const NormalCandidates& candidates) {
@@ -91,78 +158,57 @@ Roughness roughness(const NormalCandidates& candidates) {
           .correlated = four_times > kSlowFall * twice && eight_times < four_times};
 }
 
-FusionFrame fusion_features(const FusionInput& input, std::size_t f,
-                            std::span<float, kFusionInputs> features) {
+FusionFrame fusion_features(const FusionInput& input, std::size_t f, FusionFeatures& features) {
   const FusionFrame frame = frame_of(input, f);
-  std::size_t at = 0;
-  const auto add = [&](const Quad& n) {
-    features[at++] = dot3(n, frame.x);
-    features[at++] = dot3(n, frame.y);
-  };
-  for (const Quad& c : input.candidates->of(f)) add(c);
-  add(input.first.empty() ? Quad() : input.first[f]);
-  add(input.last.empty() ? Quad() : input.last[f]);
-
-  const auto row = input.around->row(f);
-  float weights = 1e-6f;
-  std::array<float, 2> raw{}, smooth{}, lean{};  // mean squares of neighbours along x and y
-  for (const std::uint32_t g : row) {
-    if (g == f) continue;
-    const auto of_g = input.candidates->of(g);
-    const Quad& own = of_g[NormalCandidates::kRaw];
-    const Quad& mean = of_g[NormalCandidates::kFourTimes];
-    const float w = own.w();
-    const float rx = dot3(own, frame.x), ry = dot3(own, frame.y);
-    const float sx = dot3(mean, frame.x), sy = dot3(mean, frame.y);
-    weights += w;
-    raw[0] += w * rx * rx;
-    raw[1] += w * ry * ry;
-    smooth[0] += w * sx * sx;
-    smooth[1] += w * sy * sy;
-    lean[0] += w * sx;
-    lean[1] += w * sy;
+  const auto candidates = input.candidates->of(f);
+  std::array<Quad, kFusionBlended> blended;
+  std::copy(candidates.begin(), candidates.end(), blended.begin());
+  if (!input.first.empty()) blended[candidates.size()] = input.first[f];
+  if (!input.last.empty()) blended[candidates.size() + 1] = input.last[f];
+  float* seen = features.seen.data();
+  for (std::size_t i = 0; i < kFusionBlended; ++i) {
+    features.x[i] = *seen++ = dot3(blended[i], frame.x);
+    features.y[i] = *seen++ = dot3(blended[i], frame.y);
   }
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    features[at++] = std::sqrt(raw[axis] / weights);
-    features[at++] = std::sqrt(smooth[axis] / weights);
-    features[at++] = lean[axis] / weights;
+  const Surroundings around = surroundings(input, f, frame);
+  for (const Quad& sides : around.sides) {
+    sides.store(seen);
+    seen += 4;
   }
-  features[at++] = std::sqrt(input.roughness.fine);
-  features[at++] = std::sqrt(input.roughness.coarse);
-  const Quad& own = input.candidates->of(f)[NormalCandidates::kRaw];
-  const float mean_area = weights / static_cast<float>(std::max<std::size_t>(row.size(), 2) - 1);
-  features[at++] = std::min(3.f, own.w() / mean_area);
-  features[at++] = 1 - dot3(own, frame.z);
+  for (const float roughness : around.spread) *seen++ = roughness;
+  *seen++ = std::sqrt(input.roughness.fine);
+  *seen++ = std::sqrt(input.roughness.coarse);
+  const Quad& own = candidates[NormalCandidates::kRaw];
+  *seen++ = std::min(3.f, own.w() / around.mean_area);
+  *seen++ = 1 - dot3(own, frame.z);
   return frame;
 }
 
 FusionLayers evaluate(const FusionNetwork& network,
                       std::span<const float, kFusionInputs> features) {
   FusionLayers layers;
-  const auto layer = [](std::span<const float> weights, std::span<const float> in,
-                        std::span<float> out) {
-    std::copy_n(weights.data() + in.size() * out.size(), out.size(), out.data());
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      const float x = in[i];
-      const float* const row = weights.data() + i * out.size();
-      for (std::size_t o = 0; o < out.size(); ++o) out[o] += x * row[o];
-    }
-  };
-  const auto rectify = [](std::span<float> values) {
-    for (float& v : values) v = std::max(v, 0.f);
-  };
-  layer(network.first, features, layers.first);
+  linear_layer(network.first, features, layers.first);
   rectify(layers.first);
-  layer(network.second, layers.first, layers.second);
+  linear_layer(network.second, layers.first, layers.second);
   rectify(layers.second);
-  layer(network.last, layers.second, layers.turn);
+  linear_layer(network.last, layers.second, layers.last);
   return layers;
 }
 
-Quad fused_normal(const FusionNetwork& network, std::span<const float, kFusionInputs> features,
+std::array<float, 2> blend(const FusionFeatures& features,
+                           std::span<const float, kFusionOutputs> output) {
+  float x = output[kFusionBlended], y = output[kFusionBlended + 1];
+  for (std::size_t i = 0; i < kFusionBlended; ++i) {
+    x += output[i] * features.x[i];
+    y += output[i] * features.y[i];
+  }
+  return {x, y};
+}
+
+Quad fused_normal(const FusionNetwork& network, const FusionFeatures& features,
                   const FusionFrame& frame) {
-  const auto turn = evaluate(network, features).turn;
-  return unit_or(frame.z + turn[0] * frame.x + turn[1] * frame.y, frame.z);
+  const auto [x, y] = blend(features, evaluate(network, features.seen).last);
+  return unit_or(frame.z + x * frame.x + y * frame.y, frame.z);
 }
 
 }  // namespace burnish

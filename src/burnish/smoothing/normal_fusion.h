@@ -18,13 +18,19 @@ struct FusionFrame {
   Quad x, y, z;
 };
 
-/// Numbers that describe the face and its surroundings besides the candidates.
-inline constexpr std::size_t kFusionScalars = 10;
-/// The normals that the second stage sees too: as it came, and what the first stage made of it.
-inline constexpr std::size_t kFusionExtra = 2;
-inline constexpr std::size_t kFusionInputs =
-    2 * (NormalCandidates::kCount + kFusionExtra) + kFusionScalars;
+/// The normals that are blended: the candidates, the face's as it came, and what the stage before
+/// made of it.
+inline constexpr std::size_t kFusionBlended = NormalCandidates::kCount + 2;
+/// Means of neighbours' normals: two candidates, on four sides of the face, along x and y.
+inline constexpr std::size_t kFusionSides = 2 * 4 * 2;
+/// Numbers that describe the face and its surroundings besides these.
+inline constexpr std::size_t kFusionScalars = 8;
+inline constexpr std::size_t kFusionInputs = 2 * kFusionBlended + kFusionSides + kFusionScalars;
 inline constexpr std::size_t kFusionHidden = 64;
+/// A share of each normal that is blended, and a turn along x and y that the network adds; what is
+/// left fills the row.
+inline constexpr std::size_t kFusionOutputs = 16;
+static_assert(kFusionBlended + 2 <= kFusionOutputs);
 
 /// How rough a mesh is, from the squared differences between the normals of its faces before and
 /// after some passes of the candidates' plain mean.
@@ -42,33 +48,44 @@ Roughness roughness(const NormalCandidates& candidates);
 /// What is the same for all faces, or looked up by face.
 struct FusionInput {
   const NormalCandidates* candidates;
+  const FaceGeometry* faces;          ///< as they are now
   const Adjacency* around;            ///< vertex_neighbours
   Roughness roughness;                ///< of the mesh as it came
   std::span<const Quad> first, last;  ///< #T: as it came, after the stage before; empty at first
 };
 
-/// Writes what the network sees of face `f`; returns its frame.
-FusionFrame fusion_features(const FusionInput& input, std::size_t f,
-                            std::span<float, kFusionInputs> features);
+/// What the network sees of a face.
+struct FusionFeatures {
+  std::array<float, kFusionInputs> seen;
+  std::array<float, kFusionBlended> x, y;  ///< the normals that are blended, along the frame's axes
+};
 
-/// Weights of a network of two hidden layers of rectified linear units and two outputs, a layer's
-/// row per input and its offsets after them.
+/// Fills in what the network sees of face `f`; returns its frame.
+FusionFrame fusion_features(const FusionInput& input, std::size_t f, FusionFeatures& features);
+
+/// Weights of a network of two hidden layers of rectified linear units and one of linear ones, a
+/// layer's row per input and its offsets after them.
 struct FusionNetwork {
   std::array<float, (kFusionInputs + 1) * kFusionHidden> first;
   std::array<float, (kFusionHidden + 1) * kFusionHidden> second;
-  std::array<float, (kFusionHidden + 1) * 2> last;
+  std::array<float, (kFusionHidden + 1) * kFusionOutputs> last;
 };
 
 /// What comes out of each layer.
 struct FusionLayers {
   std::array<float, kFusionHidden> first, second;
-  std::array<float, 2> turn;  ///< o_x, o_y
+  std::array<float, kFusionOutputs> last;
 };
 
 FusionLayers evaluate(const FusionNetwork& network, std::span<const float, kFusionInputs> features);
 
-/// The normal that the network sees in the features: z + o_x x + o_y y, of unit length.
-Quad fused_normal(const FusionNetwork& network, std::span<const float, kFusionInputs> features,
+/// What the last layer's output says of the normal in its frame: the sum of the shares of the
+/// blended normals and the turn that is added.
+std::array<float, 2> blend(const FusionFeatures& features,
+                           std::span<const float, kFusionOutputs> output);
+
+/// The normal that the network makes of the features: z + blend_x x + blend_y y, of unit length.
+Quad fused_normal(const FusionNetwork& network, const FusionFeatures& features,
                   const FusionFrame& frame);
 
 }  // namespace burnish

@@ -54,6 +54,18 @@ inline float dot3(const Quad& a, const Quad& b) {
   return sum3(a * b);
 }
 
+/// sum3 of each of four.
+inline Quad sums3(const Quad& a, const Quad& b, const Quad& c, const Quad& d) {
+  const Quad xy_ab(__builtin_shufflevector(a.lanes, b.lanes, 0, 1, 4, 5));
+  const Quad xy_cd(__builtin_shufflevector(c.lanes, d.lanes, 0, 1, 4, 5));
+  const Quad z_ab(__builtin_shufflevector(a.lanes, b.lanes, 2, 2, 6, 6));
+  const Quad z_cd(__builtin_shufflevector(c.lanes, d.lanes, 2, 2, 6, 6));
+  const Quad x(__builtin_shufflevector(xy_ab.lanes, xy_cd.lanes, 0, 2, 4, 6));
+  const Quad y(__builtin_shufflevector(xy_ab.lanes, xy_cd.lanes, 1, 3, 5, 7));
+  const Quad z(__builtin_shufflevector(z_ab.lanes, z_cd.lanes, 0, 2, 4, 6));
+  return x + y + z;
+}
+
 /// The lane in all four.
 template <int lane>
 Quad splat(const Quad& a) {
