@@ -64,41 +64,6 @@ class Tie {
   std::size_t count_ = 0;
 };
 
-/// The first and the last of some distances, all of them squared, and the places next to these.
-class Extremes {
- public:
-  /// Who is nearest and farthest cannot be predicted, so no branch may depend on it.
-  void add(double distance, std::uint32_t who) {
-    const bool nearer = distance<least_, farther = distance> greatest_;
-    second_least_ = std::min(second_least_, std::max(distance, least_));
-    second_greatest_ = std::max(second_greatest_, std::min(distance, greatest_));
-    least_ = nearer ? distance : least_;
-    nearest_ = nearer ? who : nearest_;
-    greatest_ = farther ? distance : greatest_;
-    farthest_ = farther ? who : farthest_;
-  }
-
-  double least() const { return least_; }
-  double greatest() const { return greatest_; }
-  std::uint32_t nearest() const { return nearest_; }
-  std::uint32_t farthest() const { return farthest_; }
-
-  /// Whether anybody comes so near to a first place that there may be a tie to settle.
-  bool maybe_tied(double rounding) const {
-    // Opposite neighbours differ in distance by at most sqrt(3) times the rounding.
-    const auto reach = [rounding](double extreme) {
-      return kTie * extreme + rounding * (4 * std::sqrt(extreme) + 4 * rounding);
-    };
-    return second_least_ <= least_ + reach(least_) ||
-           second_greatest_ >= greatest_ - reach(greatest_);
-  }
-
- private:
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-  double least_ = kFar, second_least_ = kFar, greatest_ = -1, second_greatest_ = -1;
-  std::uint32_t nearest_ = 0, farthest_ = 0;
-};
-
 /// The weights of Eq. 1; the vertex's own is 0.
 class Equation1 {
  public:
@@ -107,44 +72,65 @@ class Equation1 {
 
   double operator()(const RingView& ring, std::span<double> weights,
                     std::span<double> distances) const {
-    Extremes extremes;
-    for (std::uint32_t i = 0; i < weights.size(); ++i) {
+    for (std::size_t i = 0; i < distances.size(); ++i) {
       distances[i] = squared_norm(ring.neighbours[i] - ring.centre);
-      extremes.add(distances[i], i);
-      weights[i] = 1;
     }
-    if (!extremes.maybe_tied(rounding_)) {
-      weights[extremes.nearest()] += 1;
-      weights[extremes.farthest()] += 1;
-      return 0;
-    }
-    const bool symmetric = point_symmetric(ring, rounding_);
-    const Tie nearest(ring, distances, extremes.least(), symmetric, rounding_);
-    const Tie farthest(ring, distances, extremes.greatest(), symmetric, rounding_);
+    const auto [least, greatest] = std::minmax_element(distances.begin(), distances.end());
+    const bool tied = maybe_tied(distances, *least, *greatest);
+    const bool symmetric = tied && point_symmetric(ring, rounding_);
+    const Tie nearest(ring, distances, *least, symmetric, rounding_);
+    const Tie farthest(ring, distances, *greatest, symmetric, rounding_);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       weights[i] = 1 + nearest.share(i) + farthest.share(i);
     }
     return 0;
   }
 
-  /// Mostly nobody is tied, and then no weights are needed.
+  /// The sum of the neighbours, plus the nearest, plus the farthest. Mostly nobody is tied, and
+  /// then no weights are needed.
   WeightedSum sum(const Vec3d* positions, std::uint32_t v,
                   std::span<const std::uint32_t> ring) const {
+    constexpr std::size_t kShort = 32;
+    if (ring.size() > kShort) return weighed(positions, v, ring);
     const Vec3d centre = positions[v];
     Vec3d all;
-    Extremes extremes;
-    for (const std::uint32_t w : ring) {
-      extremes.add(squared_norm(positions[w] - centre), w);
+    double distances[kShort], least = std::numeric_limits<double>::infinity(), greatest = -1;
+    std::uint32_t nearest = 0, farthest = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::uint32_t w = ring[i];
+      const double distance = squared_norm(positions[w] - centre);
       all += positions[w];
+      distances[i] = distance;
+      // Who is nearest and farthest cannot be predicted, so no branch may depend on it.
+      const bool nearer = distance<least, farther = distance> greatest;
+      least = nearer ? distance : least;
+      nearest = nearer ? w : nearest;
+      greatest = farther ? distance : greatest;
+      farthest = farther ? w : farthest;
     }
-    if (extremes.maybe_tied(rounding_)) {
-      return RingWeigher(ring.size()).sum(*this, positions, v, ring);
-    }
-    return {all + positions[extremes.nearest()] + positions[extremes.farthest()],
-            static_cast<double>(ring.size() + 2)};
+    if (maybe_tied({distances, ring.size()}, least, greatest)) return weighed(positions, v, ring);
+    return {all + positions[nearest] + positions[farthest], static_cast<double>(ring.size() + 2)};
   }
 
  private:
+  /// Whether anybody comes so near to a first place that there may be a tie to settle.
+  bool maybe_tied(std::span<const double> distances, double least, double greatest) const {
+    // Opposite neighbours differ in distance by at most sqrt(3) times the rounding.
+    const auto reach = [this](double extreme) {
+      return kTie * extreme + rounding_ * (4 * std::sqrt(extreme) + 4 * rounding_);
+    };
+    const double near = least + reach(least), far = greatest - reach(greatest);
+    int at_first_places = 0;
+    for (const double distance : distances)
+      at_first_places += (distance <= near) + (distance >= far);
+    return at_first_places > 2;
+  }
+
+  WeightedSum weighed(const Vec3d* positions, std::uint32_t v,
+                      std::span<const std::uint32_t> ring) const {
+    return RingWeigher(ring.size()).sum(*this, positions, v, ring);
+  }
+
   double rounding_;
 };
 
