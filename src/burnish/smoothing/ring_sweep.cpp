@@ -132,10 +132,11 @@ bool RingSweep::lay_out(const Context& context, Adjacency rings, int passes,
   rings_ = std::move(rings);
   tiling_ = {rings_.size(), layout.tile_bits};
   longest_ = longest_row(rings_);
+  effort_ = layout.effort;
   if (size() == 0) return true;
   Context quiet = context;
   quiet.sink = nullptr;
-  if (is_little_work(ring_items(), passes)) quiet.threads = 1;
+  if (is_little_work(ring_items(), passes, effort_)) quiet.threads = 1;
   // What is numbered as given saves nothing by other numbers.
   const int saving = layout.numbering == Numbering::as_given ? 0 : passes;
   const auto cache = static_cast<double>(layout.cache);
@@ -163,7 +164,7 @@ bool RingSweep::run(const Context& context, int passes,
     const int count = std::min(together_, passes - first);
     Context share = context.part(static_cast<double>(first) / passes,
                                  static_cast<double>(first + count) / passes);
-    if (is_little_work(ring_items(), passes)) share.threads = 1;
+    if (is_little_work(ring_items(), passes, effort_)) share.threads = 1;
     const bool complete = parallel_passes(
         share, static_cast<std::size_t>(count), needs_, [&](std::size_t pass, std::size_t tile) {
           const IndexRange range = tiling_.range(tile);

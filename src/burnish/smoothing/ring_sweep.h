@@ -14,9 +14,9 @@
 namespace burnish {
 
 /// Whether passes over rings with so many neighbours in all are a few milliseconds of work: to wake
-/// other threads would cost more than they save.
-inline bool is_little_work(std::size_t neighbours, int passes) {
-  return static_cast<double>(neighbours) * passes < 4e6;
+/// other threads would cost more than they save. `effort` is that of a visit, 1 for a plain mean.
+inline bool is_little_work(std::size_t neighbours, int passes, double effort = 1) {
+  return static_cast<double>(neighbours) * passes * effort < 4e6;
 }
 
 /// What the vertices are called while passes go over them.
@@ -29,6 +29,7 @@ struct SweepLayout {
   Numbering numbering = Numbering::near;
   unsigned tile_bits = 11;                   ///< 2^11 vertices are taken together
   std::size_t cache = std::size_t{8} << 20;  ///< bytes that stay in the processor's caches
+  double effort = 1;  ///< of a visit to a vertex, in visits of the plain mean
 };
 
 /// Rings of vertices that are taken together.
@@ -119,6 +120,7 @@ class RingSweep {
 
   Tiling tiling_;
   std::size_t longest_ = 0;
+  double effort_ = 1;
   int together_ = 1;                  ///< passes that make up one wave
   std::vector<std::uint32_t> needs_;  ///< per tile, for parallel_passes
   Adjacency rings_;                   ///< in the mesh's numbering, or none
