@@ -64,38 +64,112 @@ class Tie {
   std::size_t count_ = 0;
 };
 
-/// The weights of Eq. 1; the vertex's own is 0. `rounding` is the uncertainty of coordinates.
-double weigh(const RingView& ring, double rounding, std::span<double> weights,
-             std::span<double> distances) {
-  double least = std::numeric_limits<double>::infinity(), greatest = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    distances[i] = squared_norm(ring.neighbours[i] - ring.centre);
-    least = std::min(least, distances[i]);
-    greatest = std::max(greatest, distances[i]);
-  }
-  // Opposite neighbours differ in distance by at most sqrt(3) times the rounding. Mostly nobody
-  // comes that near to the first place, and then there is no tie to settle.
-  const auto reach = [rounding](double extreme) {
-    return kTie * extreme + rounding * (4 * std::sqrt(extreme) + 4 * rounding);
-  };
-  const double near = least + reach(least), far = greatest - reach(greatest);
-  // Who is nearest and farthest cannot be predicted, so no branch may depend on it.
-  int near_count = 0, far_count = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const int is_near = distances[i] <= near, is_far = distances[i] >= far;
-    near_count += is_near;
-    far_count += is_far;
-    weights[i] = static_cast<double>(1 + is_near + is_far);
-  }
-  if (near_count > 1 || far_count > 1) {
-    const bool symmetric = near_count > 1 && far_count > 1 && point_symmetric(ring, rounding);
-    const Tie nearest(ring, distances, least, symmetric, rounding);
-    const Tie farthest(ring, distances, greatest, symmetric, rounding);
+/// The weights of Eq. 1; the vertex's own is 0.
+class Equation1 {
+ public:
+  /// `rounding` is the uncertainty of coordinates.
+  explicit Equation1(double rounding) : rounding_(rounding) {}
+
+  double operator()(const RingView& ring, std::span<double> weights,
+                    std::span<double> distances) const {
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      distances[i] = squared_norm(ring.neighbours[i] - ring.centre);
+    }
+    const auto [least, greatest] = std::minmax_element(distances.begin(), distances.end());
+    const bool tied = maybe_tied(distances, *least, *greatest);
+    const bool symmetric = tied && point_symmetric(ring, rounding_);
+    const Tie nearest(ring, distances, *least, symmetric, rounding_);
+    const Tie farthest(ring, distances, *greatest, symmetric, rounding_);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       weights[i] = 1 + nearest.share(i) + farthest.share(i);
     }
+    return 0;
   }
-  return 0;
+
+  /// The sum of the neighbours, plus the nearest, plus the farthest. Mostly nobody is tied, and
+  /// then no weights are needed.
+  WeightedSum sum(const Vec3d* positions, std::uint32_t v,
+                  std::span<const std::uint32_t> ring) const {
+    constexpr std::size_t kShort = 32;
+    if (ring.size() > kShort) return weighed(positions, v, ring);
+    const Vec3d centre = positions[v];
+    Vec3d all;
+    double distances[kShort], least = std::numeric_limits<double>::infinity(), greatest = -1;
+    std::uint32_t nearest = 0, farthest = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::uint32_t w = ring[i];
+      const double distance = squared_norm(positions[w] - centre);
+      all += positions[w];
+      distances[i] = distance;
+      // Who is nearest and farthest cannot be predicted, so no branch may depend on it.
+      const bool nearer = distance<least, farther = distance> greatest;
+      least = nearer ? distance : least;
+      nearest = nearer ? w : nearest;
+      greatest = farther ? distance : greatest;
+      farthest = farther ? w : farthest;
+    }
+    if (maybe_tied({distances, ring.size()}, least, greatest)) return weighed(positions, v, ring);
+    return {all + positions[nearest] + positions[farthest], static_cast<double>(ring.size() + 2)};
+  }
+
+ private:
+  /// Whether anybody comes so near to a first place that there may be a tie to settle.
+  bool maybe_tied(std::span<const double> distances, double least, double greatest) const {
+    // Opposite neighbours differ in distance by at most sqrt(3) times the rounding.
+    const auto reach = [this](double extreme) {
+      return kTie * extreme + rounding_ * (4 * std::sqrt(extreme) + 4 * rounding_);
+    };
+    const double near = least + reach(least), far = greatest - reach(greatest);
+    int at_first_places = 0;
+    for (const double distance : distances)
+      at_first_places += (distance <= near) + (distance >= far);
+    return at_first_places > 2;
+  }
+
+  WeightedSum weighed(const Vec3d* positions, std::uint32_t v,
+                      std::span<const std::uint32_t> ring) const {
+    return RingWeigher(ring.size()).sum(*this, positions, v, ring);
+  }
+
+  double rounding_;
+};
+
+/// The pseudo-code as printed: the weights come from the positions before the pass, and then one
+/// vertex after the other is moved, which those after it see.
+Result<SmoothingReport> smooth_in_place(TriangleMesh& mesh, const RingPasses& passes,
+                                        const Context& context, const Equation1& weigh) {
+  Result<SweptMesh> work =
+      swept_mesh(mesh, passes.boundary, passes.count(), context, passes.layout);
+  if (!work) return work.error();
+  SigmaFilter sigma(mesh, passes, work->sweep);
+  LargeVector<Vec3d>& positions = work->positions;
+  RingWeigher weigher(work->sweep.longest_ring());
+  for (int pass = 0; pass < passes.count(); ++pass) {
+    const LargeVector<Vec3d> before = positions;
+    Context share =
+        context.part(static_cast<double>(pass) / passes.count(), (pass + 1.0) / passes.count());
+    share.threads = 1;
+    const auto move = [&](int, const RingTile& tile) {
+      tile.for_each([&](std::uint32_t v, std::span<const std::uint32_t> ring) {
+        if (ring.empty()) return;
+        const WeightedSum weighed = weigher.sum(weigh, before.data(), v, ring);
+        Vec3d sum;
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+          sum += weigher.weights()[i] * positions[ring[i]];
+        }
+        const double hold = 1 - (1 - passes.damping_of(pass)) * work->follow(v);
+        positions[v] = (1 - hold) * (sum / weighed.weight) + hold * positions[v];
+        if (sigma.wanted()) {
+          sigma.move(pass, v, ring, hold, weigher.weights(), (1 - hold) / weighed.weight);
+        }
+      });
+    };
+    if (!work->sweep.run(share, 1, move)) return cancelled();
+  }
+  Result<SmoothingReport> report =
+      commit_positions(mesh, work->sweep, positions, passes.iterations, context);
+  if (report) sigma.finish(mesh, passes.count());
+  return report;
 }
 
 double largest_coordinate(const TriangleMesh& mesh) {
@@ -127,17 +201,12 @@ Result<SmoothingReport> smooth_nearest_farthest(TriangleMesh& mesh,
                                                 const NearestFarthestParams& params,
                                                 const Context& context) {
   if (auto valid = NearestFarthestParams::schema().check(params); !valid) return valid.error();
-  const double rounding = kRounding * largest_coordinate(mesh);
-  return filter_rings(
-      mesh,
-      {.iterations = params.iterations,
-       .boundary = params.boundary,
-       .damping = {params.damping},
-       .in_place = params.order == UpdateOrder::in_place},
-      context,
-      [rounding](const RingView& ring, std::span<double> weights, std::span<double> distances) {
-        return weigh(ring, rounding, weights, distances);
-      });
+  RingPasses passes{
+      .iterations = params.iterations, .boundary = params.boundary, .damping = {params.damping}};
+  const Equation1 weigh(kRounding * largest_coordinate(mesh));
+  if (params.order == UpdateOrder::jacobi) return filter_rings(mesh, passes, context, weigh);
+  passes.layout.numbering = Numbering::as_given;
+  return smooth_in_place(mesh, passes, context, weigh);
 }
 
 }  // namespace burnish
