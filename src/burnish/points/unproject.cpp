@@ -75,7 +75,9 @@ Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& par
 
   std::vector<float> noise(count);
   for (std::size_t i = 0; i < count; ++i) {
-    if (grid.pixels[i].w > 0) noise[i] = static_cast<float>(frame.noise.axial(frame.depth[i], 0));
+    if (grid.pixels[i].w > 0) {
+      noise[i] = static_cast<float>(frame.sigma_share_of(i) * frame.noise.axial(frame.depth[i], 0));
+    }
   }
   if (!organized_normals(grid, noise, params.window, context.part(0, 0.6),
                          cloud.attributes.normals)) {
@@ -88,11 +90,12 @@ Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& par
       const double z = frame.depth[i];
       const Vec3d point = frame.T_world_camera({pixel.u * z, pixel.v * z, z});
       const MeasuredNoise measured =
-          measured_noise(frame.noise, frame.camera.fx, z, point - eye, cloud.attributes.normals[i]);
+          measured_noise(frame.noise, frame.camera.fx, z, point - eye, cloud.attributes.normals[i],
+                         {frame.noise_share_of(i), frame.sigma_share_of(i)});
       cloud.positions[i] = Vec3f(point - cloud.frame.origin);
       cloud.attributes.sigma[i] = measured.sigma;
       cloud.attributes.noise[i] = measured.noise;
-      cloud.attributes.observations[i] = 1;
+      cloud.attributes.observations[i] = frame.observations.empty() ? 1 : frame.observations[i];
     }
   });
   if (!complete) return cancelled();

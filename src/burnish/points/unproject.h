@@ -20,8 +20,9 @@ struct UnprojectParams {
 /// float around frame_near(the camera). Pixels without depth or out of range are NaN. Attributes of
 /// every pixel:
 ///   normals       as estimate_normals gives them, towards the camera; 0 where unknown or missing
-///   sigma, noise  by the sensor's noise, see sensor_noise.h; 0 where missing
-///   observations  1, and 0 where missing
+///   sigma, noise  by the sensor's noise and the frame's shares of it, see sensor_noise.h; 0 where
+///                 missing
+///   observations  the frame's, 1 where it has none, and 0 where missing
 ///   origin        seen
 /// O(#pixels). Errors: invalid_argument, bad_geometry, cancelled.
 Result<PointCloud> unproject(const DepthFrame& frame, const UnprojectParams& params = {},
