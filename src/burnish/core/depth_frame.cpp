@@ -73,7 +73,9 @@ double DepthNoise::lateral(double z, double theta, double fx) const {
 }
 
 Result<void> check(const DepthFrame& frame) {
-  if (auto camera = check(frame.camera); !camera) return camera;
+  if (auto camera = check(frame.camera); !camera) {
+    return Error{ErrorCode::bad_geometry, camera.error().message, {}};
+  }
   if (auto sound = check_values("depth", frame.depth, frame.camera); !sound) return sound;
   for (const auto& [what, shares] : {std::pair("noise share", &frame.noise_share),
                                      std::pair("sigma share", &frame.sigma_share)}) {
