@@ -128,6 +128,33 @@ TEST(Unproject, LeavesOutWhatIsNoMeasurement) {
   EXPECT_FALSE(is_finite(near_only->positions[3]));
 }
 
+TEST(Unproject, WithoutNormalsIsTheSamePointsWithTheAxialDeviation) {
+  DepthFrame frame = empty_frame();
+  fill(frame, plane(normalized(Vec3d{0.6, 0.3, 1}), 1), 1);
+  frame.depth[77] = 0;
+  frame.T_world_camera = look_at({1, 2, 3}, {0, 0.5, 1}, {0, 0, 1});
+  frame.sigma_share.assign(frame.depth.size(), 0.5f);
+  const auto all = unproject(frame), bare = unproject(frame, {.normals = false});
+  ASSERT_TRUE(all && bare);
+  EXPECT_TRUE(bare->attributes.normals.empty() && bare->attributes.noise.empty());
+  EXPECT_EQ(bare->attributes.observations, all->attributes.observations);
+  EXPECT_EQ(bare->attributes.origin, all->attributes.origin);
+  PointCloud reused;
+  reused.positions.assign(5, {});
+  ASSERT_TRUE(unproject_into(frame, {}, {}, reused));
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
+    const bool missing = i == 77;
+    EXPECT_EQ(is_finite(bare->positions[i]), !missing);
+    if (!missing) {
+      EXPECT_EQ(bare->positions[i], all->positions[i]);
+      EXPECT_EQ(reused.positions[i], all->positions[i]);
+    }
+    const double sigma = missing ? 0 : 0.5 * frame.noise.axial(frame.depth[i], 0);
+    EXPECT_FLOAT_EQ(bare->attributes.sigma[i], static_cast<float>(sigma));
+  }
+  EXPECT_EQ(reused.attributes, bare->attributes);
+}
+
 TEST(Unproject, RefusesABrokenFrame) {
   DepthFrame frame = empty_frame();
   frame.depth.pop_back();

@@ -168,8 +168,7 @@ const Schema<BilateralDepthParams>& BilateralDepthParams::schema() {
 }
 
 Facts BilateralDepthReport::facts() const {
-  return {{"iterations", static_cast<double>(iterations), ""},
-          {"pixels", static_cast<double>(pixels), ""},
+  return {{"pixels", static_cast<double>(pixels), ""},
           {"rms_move", rms_move, "m"},
           {"max_move", max_move, "m"},
           {"mean_share", mean_share, ""}};
