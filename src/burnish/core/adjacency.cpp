@@ -6,11 +6,11 @@ namespace {
 /// Rows from (row, item) pairs that `visit_pairs` gives twice in the same order.
 template <class VisitPairs>
 Adjacency rows_from(std::size_t rows, VisitPairs visit_pairs) {
-  std::vector<std::uint32_t> offsets(rows + 1, 0);
+  LargeVector<std::uint32_t> offsets(rows + 1, 0);
   visit_pairs([&](std::uint32_t row, std::uint32_t) { ++offsets[row + 1]; });
   for (std::size_t i = 1; i <= rows; ++i) offsets[i] += offsets[i - 1];
-  std::vector<std::uint32_t> items(offsets.back());
-  std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
+  LargeVector<std::uint32_t> items(offsets.back());
+  LargeVector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
   visit_pairs([&](std::uint32_t row, std::uint32_t item) { items[next[row]++] = item; });
   return {std::move(offsets), std::move(items)};
 }
@@ -18,7 +18,7 @@ Adjacency rows_from(std::size_t rows, VisitPairs visit_pairs) {
 /// Of every row of `ends` the neighbours that `keep(triangles on the edge to it)`.
 template <class Keep>
 Adjacency neighbours(const Adjacency& ends, Keep keep) {
-  std::vector<std::uint32_t> offsets{0}, items;
+  LargeVector<std::uint32_t> offsets{0}, items;
   offsets.reserve(ends.size() + 1);
   items.reserve(ends.items().size() / 2 + 1);
   for (std::size_t v = 0; v < ends.size(); ++v) {
@@ -53,12 +53,12 @@ Adjacency edge_ends(const TriangleMesh& mesh) {
   });
   // Every pair is there both ways, so that handing out the vertices in rising order to the rows in
   // which they stand fills rows of the same lengths, each in rising order.
-  std::vector<std::uint32_t> items(unsorted.items().size());
-  std::vector<std::uint32_t> next(unsorted.offsets().begin(), unsorted.offsets().end() - 1);
+  LargeVector<std::uint32_t> items(unsorted.items().size());
+  LargeVector<std::uint32_t> next(unsorted.offsets().begin(), unsorted.offsets().end() - 1);
   for (std::uint32_t v = 0; v < unsorted.size(); ++v) {
     for (const std::uint32_t w : unsorted.row(v)) items[next[w]++] = v;
   }
-  return {std::vector(unsorted.offsets()), std::move(items)};
+  return {LargeVector<std::uint32_t>(unsorted.offsets()), std::move(items)};
 }
 
 Adjacency one_rings(const TriangleMesh& mesh) {

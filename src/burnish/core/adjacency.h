@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "burnish/base/context.h"
+#include "burnish/base/large_vector.h"
 #include "burnish/core/triangle_mesh.h"
 
 namespace burnish {
@@ -14,18 +14,18 @@ class Adjacency {
  public:
   Adjacency() = default;
   /// `offsets` has one entry more than there are rows, rising from 0 to `items.size()`.
-  Adjacency(std::vector<std::uint32_t> offsets, std::vector<std::uint32_t> items)
+  Adjacency(LargeVector<std::uint32_t> offsets, LargeVector<std::uint32_t> items)
       : offsets_(std::move(offsets)), items_(std::move(items)) {}
 
   std::size_t size() const { return offsets_.empty() ? 0 : offsets_.size() - 1; }
   std::span<const std::uint32_t> row(std::size_t i) const {
     return {items_.data() + offsets_[i], items_.data() + offsets_[i + 1]};
   }
-  const std::vector<std::uint32_t>& offsets() const { return offsets_; }
-  const std::vector<std::uint32_t>& items() const { return items_; }
+  const LargeVector<std::uint32_t>& offsets() const { return offsets_; }
+  const LargeVector<std::uint32_t>& items() const { return items_; }
 
  private:
-  std::vector<std::uint32_t> offsets_, items_;
+  LargeVector<std::uint32_t> offsets_, items_;
 };
 
 /// Per vertex the triangles that use it, rising. A triangle that names a vertex twice is listed

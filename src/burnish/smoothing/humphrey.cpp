@@ -19,25 +19,28 @@ const Schema<HumphreyParams>& HumphreyParams::schema() {
 Result<SmoothingReport> smooth_humphrey(TriangleMesh& mesh, const HumphreyParams& params,
                                         const Context& context) {
   if (auto valid = HumphreyParams::schema().check(params); !valid) return valid.error();
-  Result<RingMesh> work = ring_mesh(mesh, params.boundary);
+  const int passes = 2 * params.iterations;
+  Result<SweptMesh> work = swept_mesh(mesh, params.boundary, passes, context);
   if (!work) return work.error();
-  std::vector<Vec3d>& positions = work->positions;
-  const std::vector<Vec3d> first = positions;
-  std::vector<Vec3d> steps(positions.size()), excess = steps, spread = steps;
-  for (int pass = 0; pass < params.iterations; ++pass) {
-    const Context share = part_of_pass(context, pass, params.iterations, work->rings);
-    if (!ring_steps(share.part(0, 0.5), work->rings, positions, steps)) return cancelled();
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-      excess[v] = steps[v] + params.alpha * (positions[v] - first[v]);
-    }
-    if (!ring_steps(share.part(0.5, 1), work->rings, excess, spread)) return cancelled();
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-      if (work->rings.row(v).empty()) continue;
-      const Vec3d back = excess[v] + (1 - params.beta) * spread[v];
-      positions[v] += work->follow(v) * (steps[v] - back);
-    }
-  }
-  return commit_positions(mesh, positions, params.iterations, context);
+  const RingSweep& sweep = work->sweep;
+  LargeVector<Vec3d>& positions = work->positions;
+  const LargeVector<Vec3d> first = positions;
+  LargeVector<Vec3d> steps(sweep.size()), excess(sweep.size());
+  // Even passes find what is too much of the move to the mean, odd ones push back.
+  const auto step = [&](int pass, const RingTile& tile) {
+    tile.for_each([&](std::uint32_t v, std::span<const std::uint32_t> ring) {
+      if (pass % 2 == 0) {
+        steps[v] = ring_step(positions.data(), v, ring);
+        excess[v] = steps[v] + params.alpha * (positions[v] - first[v]);
+      } else if (!ring.empty()) {
+        const Vec3d spread = ring_step(excess.data(), v, ring);
+        const Vec3d back = excess[v] + (1 - params.beta) * spread;
+        positions[v] += work->follow(v) * (steps[v] - back);
+      }
+    });
+  };
+  if (!sweep.run(context, passes, step)) return cancelled();
+  return commit_positions(mesh, sweep, positions, params.iterations, context);
 }
 
 }  // namespace burnish

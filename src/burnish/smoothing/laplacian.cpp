@@ -69,12 +69,13 @@ const Schema<LaplacianParams>& LaplacianParams::schema() {
 Result<SmoothingReport> smooth_laplacian(TriangleMesh& mesh, const LaplacianParams& params,
                                          const Context& context) {
   if (auto valid = LaplacianParams::schema().check(params); !valid) return valid.error();
-  const RingPasses passes{
+  RingPasses passes{
       .iterations = params.iterations, .boundary = params.boundary, .damping = {1 - params.lambda}};
   if (params.weights == LaplacianWeights::uniform) {
     return filter_rings(mesh, passes, context, EqualWeights{});
   }
   if (auto sound = check(mesh); !sound) return sound.error();
+  passes.layout.numbering = Numbering::as_given;  // the fans of triangles keep theirs
   return filter_rings(mesh, passes, context, CotangentWeights(mesh, params.boundary));
 }
 

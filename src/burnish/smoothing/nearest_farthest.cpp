@@ -64,38 +64,126 @@ class Tie {
   std::size_t count_ = 0;
 };
 
-/// The weights of Eq. 1; the vertex's own is 0. `rounding` is the uncertainty of coordinates.
-double weigh(const RingView& ring, double rounding, std::span<double> weights,
-             std::span<double> distances) {
-  double least = std::numeric_limits<double>::infinity(), greatest = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    distances[i] = squared_norm(ring.neighbours[i] - ring.centre);
-    least = std::min(least, distances[i]);
-    greatest = std::max(greatest, distances[i]);
+/// The first and the last of some distances, all of them squared, and the places next to these.
+class Extremes {
+ public:
+  /// Who is nearest and farthest cannot be predicted, so no branch may depend on it.
+  void add(double distance, std::uint32_t who) {
+    const bool nearer = distance<least_, farther = distance> greatest_;
+    second_least_ = std::min(second_least_, std::max(distance, least_));
+    second_greatest_ = std::max(second_greatest_, std::min(distance, greatest_));
+    least_ = nearer ? distance : least_;
+    nearest_ = nearer ? who : nearest_;
+    greatest_ = farther ? distance : greatest_;
+    farthest_ = farther ? who : farthest_;
   }
-  // Opposite neighbours differ in distance by at most sqrt(3) times the rounding. Mostly nobody
-  // comes that near to the first place, and then there is no tie to settle.
-  const auto reach = [rounding](double extreme) {
-    return kTie * extreme + rounding * (4 * std::sqrt(extreme) + 4 * rounding);
-  };
-  const double near = least + reach(least), far = greatest - reach(greatest);
-  // Who is nearest and farthest cannot be predicted, so no branch may depend on it.
-  int near_count = 0, far_count = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const int is_near = distances[i] <= near, is_far = distances[i] >= far;
-    near_count += is_near;
-    far_count += is_far;
-    weights[i] = static_cast<double>(1 + is_near + is_far);
+
+  double least() const { return least_; }
+  double greatest() const { return greatest_; }
+  std::uint32_t nearest() const { return nearest_; }
+  std::uint32_t farthest() const { return farthest_; }
+
+  /// Whether anybody comes so near to a first place that there may be a tie to settle.
+  bool maybe_tied(double rounding) const {
+    // Opposite neighbours differ in distance by at most sqrt(3) times the rounding.
+    const auto reach = [rounding](double extreme) {
+      return kTie * extreme + rounding * (4 * std::sqrt(extreme) + 4 * rounding);
+    };
+    return second_least_ <= least_ + reach(least_) ||
+           second_greatest_ >= greatest_ - reach(greatest_);
   }
-  if (near_count > 1 || far_count > 1) {
-    const bool symmetric = near_count > 1 && far_count > 1 && point_symmetric(ring, rounding);
-    const Tie nearest(ring, distances, least, symmetric, rounding);
-    const Tie farthest(ring, distances, greatest, symmetric, rounding);
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+  double least_ = kFar, second_least_ = kFar, greatest_ = -1, second_greatest_ = -1;
+  std::uint32_t nearest_ = 0, farthest_ = 0;
+};
+
+/// The weights of Eq. 1; the vertex's own is 0.
+class Equation1 {
+ public:
+  /// `rounding` is the uncertainty of coordinates.
+  explicit Equation1(double rounding) : rounding_(rounding) {}
+
+  double operator()(const RingView& ring, std::span<double> weights,
+                    std::span<double> distances) const {
+    Extremes extremes;
+    for (std::uint32_t i = 0; i < weights.size(); ++i) {
+      distances[i] = squared_norm(ring.neighbours[i] - ring.centre);
+      extremes.add(distances[i], i);
+      weights[i] = 1;
+    }
+    if (!extremes.maybe_tied(rounding_)) {
+      weights[extremes.nearest()] += 1;
+      weights[extremes.farthest()] += 1;
+      return 0;
+    }
+    const bool symmetric = point_symmetric(ring, rounding_);
+    const Tie nearest(ring, distances, extremes.least(), symmetric, rounding_);
+    const Tie farthest(ring, distances, extremes.greatest(), symmetric, rounding_);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       weights[i] = 1 + nearest.share(i) + farthest.share(i);
     }
+    return 0;
   }
-  return 0;
+
+  /// Mostly nobody is tied, and then no weights are needed.
+  WeightedSum sum(const Vec3d* positions, std::uint32_t v,
+                  std::span<const std::uint32_t> ring) const {
+    const Vec3d centre = positions[v];
+    Vec3d all;
+    Extremes extremes;
+    for (const std::uint32_t w : ring) {
+      extremes.add(squared_norm(positions[w] - centre), w);
+      all += positions[w];
+    }
+    if (extremes.maybe_tied(rounding_)) {
+      return RingWeigher(ring.size()).sum(*this, positions, v, ring);
+    }
+    return {all + positions[extremes.nearest()] + positions[extremes.farthest()],
+            static_cast<double>(ring.size() + 2)};
+  }
+
+ private:
+  double rounding_;
+};
+
+/// The pseudo-code as printed: the weights come from the positions before the pass, and then one
+/// vertex after the other is moved, which those after it see.
+Result<SmoothingReport> smooth_in_place(TriangleMesh& mesh, const RingPasses& passes,
+                                        const Context& context, const Equation1& weigh) {
+  Result<SweptMesh> work =
+      swept_mesh(mesh, passes.boundary, passes.count(), context, passes.layout);
+  if (!work) return work.error();
+  SigmaFilter sigma(mesh, passes, work->sweep);
+  LargeVector<Vec3d>& positions = work->positions;
+  RingWeigher weigher(work->sweep.longest_ring());
+  for (int pass = 0; pass < passes.count(); ++pass) {
+    const LargeVector<Vec3d> before = positions;
+    Context share =
+        context.part(static_cast<double>(pass) / passes.count(), (pass + 1.0) / passes.count());
+    share.threads = 1;
+    const auto move = [&](int, const RingTile& tile) {
+      tile.for_each([&](std::uint32_t v, std::span<const std::uint32_t> ring) {
+        if (ring.empty()) return;
+        const WeightedSum weighed = weigher.sum(weigh, before.data(), v, ring);
+        Vec3d sum;
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+          sum += weigher.weights()[i] * positions[ring[i]];
+        }
+        const double hold = 1 - (1 - passes.damping_of(pass)) * work->follow(v);
+        positions[v] = (1 - hold) * (sum / weighed.weight) + hold * positions[v];
+        if (sigma.wanted()) {
+          sigma.move(pass, v, ring, hold, weigher.weights(), (1 - hold) / weighed.weight);
+        }
+      });
+    };
+    if (!work->sweep.run(share, 1, move)) return cancelled();
+  }
+  Result<SmoothingReport> report =
+      commit_positions(mesh, work->sweep, positions, passes.iterations, context);
+  if (report) sigma.finish(mesh, passes.count());
+  return report;
 }
 
 double largest_coordinate(const TriangleMesh& mesh) {
@@ -127,17 +215,12 @@ Result<SmoothingReport> smooth_nearest_farthest(TriangleMesh& mesh,
                                                 const NearestFarthestParams& params,
                                                 const Context& context) {
   if (auto valid = NearestFarthestParams::schema().check(params); !valid) return valid.error();
-  const double rounding = kRounding * largest_coordinate(mesh);
-  return filter_rings(
-      mesh,
-      {.iterations = params.iterations,
-       .boundary = params.boundary,
-       .damping = {params.damping},
-       .in_place = params.order == UpdateOrder::in_place},
-      context,
-      [rounding](const RingView& ring, std::span<double> weights, std::span<double> distances) {
-        return weigh(ring, rounding, weights, distances);
-      });
+  RingPasses passes{
+      .iterations = params.iterations, .boundary = params.boundary, .damping = {params.damping}};
+  const Equation1 weigh(kRounding * largest_coordinate(mesh));
+  if (params.order == UpdateOrder::jacobi) return filter_rings(mesh, passes, context, weigh);
+  passes.layout.numbering = Numbering::as_given;
+  return smooth_in_place(mesh, passes, context, weigh);
 }
 
 }  // namespace burnish

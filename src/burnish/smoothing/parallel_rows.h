@@ -19,7 +19,7 @@ template <class MakeAppend>
   // Few chunks, since each may make scratch as long as all the rows.
   const std::size_t grain = std::max<std::size_t>(4096, count / 64 + 1);
   std::vector<std::vector<std::uint32_t>> chunks((count + grain - 1) / grain);
-  std::vector<std::uint32_t> offsets(count + 1, 0);
+  LargeVector<std::uint32_t> offsets(count + 1, 0);
   const bool complete = parallel_for(
       context, chunks.size(),
       [&](IndexRange range) {
@@ -37,7 +37,7 @@ template <class MakeAppend>
       1);
   if (!complete) return false;
   for (std::size_t row = 0; row < count; ++row) offsets[row + 1] += offsets[row];
-  std::vector<std::uint32_t> items(offsets.back());
+  LargeVector<std::uint32_t> items(offsets.back());
   for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
     std::copy(chunks[chunk].begin(), chunks[chunk].end(), items.begin() + offsets[chunk * grain]);
   }

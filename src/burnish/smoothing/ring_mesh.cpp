@@ -8,7 +8,7 @@ namespace burnish {
 Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
   if (boundary == BoundaryRule::free) return one_rings(mesh);
   const Adjacency ends = edge_ends(mesh);
-  std::vector<std::uint32_t> offsets{0}, items;
+  LargeVector<std::uint32_t> offsets{0}, items;
   offsets.reserve(ends.size() + 1);
   items.reserve(ends.items().size() / 2);
   for (std::size_t v = 0; v < ends.size(); ++v) {
@@ -29,7 +29,7 @@ namespace {
 
 /// Without the neighbours of vertices that are pinned.
 Adjacency without_pinned(const Adjacency& rings, const std::vector<float>& follows) {
-  std::vector<std::uint32_t> offsets{0}, items;
+  LargeVector<std::uint32_t> offsets{0}, items;
   offsets.reserve(rings.offsets().size());
   items.reserve(rings.items().size());
   for (std::size_t v = 0; v < rings.size(); ++v) {
@@ -40,61 +40,18 @@ Adjacency without_pinned(const Adjacency& rings, const std::vector<float>& follo
   return {std::move(offsets), std::move(items)};
 }
 
-}  // namespace
-
-Result<RingMesh> ring_mesh(const TriangleMesh& mesh, BoundaryRule boundary) {
+Result<MovableRings> movable_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
   if (auto sound = check(mesh); !sound) return sound.error();
   Result<std::vector<float>> follows = smoothing_weights(mesh);
   if (!follows) return follows.error();
   Adjacency rings = smoothing_rings(mesh, boundary);
   if (!follows->empty()) rings = without_pinned(rings, *follows);
-  return RingMesh{std::move(rings), std::move(*follows), in_double(mesh.positions)};
+  return MovableRings{std::move(rings), std::move(*follows)};
 }
 
-std::vector<Vec3d> in_double(const std::vector<Vec3f>& positions) {
-  std::vector<Vec3d> result(positions.size());
-  std::transform(positions.begin(), positions.end(), result.begin(),
-                 [](const Vec3f& p) { return Vec3d(p); });
-  return result;
-}
-
-std::vector<Vec3f> in_float(const std::vector<Vec3d>& positions) {
-  std::vector<Vec3f> result(positions.size());
-  std::transform(positions.begin(), positions.end(), result.begin(),
-                 [](const Vec3d& p) { return Vec3f(p); });
-  return result;
-}
-
-std::size_t longest_row(const Adjacency& rows) {
-  std::size_t longest = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) longest = std::max(longest, rows.row(i).size());
-  return longest;
-}
-
-Context part_of_pass(const Context& context, int pass, int passes, const Adjacency& rings) {
-  Context share =
-      context.part(static_cast<double>(pass) / passes, (pass + 1.0) / static_cast<double>(passes));
-  // To wake other threads for a few milliseconds of work costs more than they save.
-  constexpr double kSmall = 4e6;
-  if (static_cast<double>(rings.items().size()) * passes < kSmall) share.threads = 1;
-  return share;
-}
-
-bool ring_steps(const Context& context, const Adjacency& rings, const std::vector<Vec3d>& values,
-                std::vector<Vec3d>& steps) {
-  return parallel_for(context, values.size(), [&](IndexRange range) {
-    for (std::size_t v = range.begin; v < range.end; ++v) {
-      const auto row = rings.row(v);
-      Vec3d sum;
-      for (const std::uint32_t w : row) sum += values[w];
-      steps[v] = row.empty() ? Vec3d{} : sum / static_cast<double>(row.size()) - values[v];
-    }
-  });
-}
-
-Result<SmoothingReport> commit_positions(TriangleMesh& mesh, const std::vector<Vec3d>& positions,
-                                         int iterations, const Context& context) {
-  std::vector<Vec3f> moved = in_float(positions);
+/// Puts positions in float into the mesh.
+Result<SmoothingReport> commit(TriangleMesh& mesh, std::vector<Vec3f> moved, int iterations,
+                               const Context& context) {
   for (std::size_t v = 0; v < moved.size(); ++v) {
     if (is_finite(moved[v])) continue;
     return Error{ErrorCode::invalid_argument,
@@ -105,6 +62,55 @@ Result<SmoothingReport> commit_positions(TriangleMesh& mesh, const std::vector<V
   if (!mesh.attributes.normals.empty()) mesh.attributes.normals = vertex_normals(mesh);
   context.progress(1);
   return report_moves(moved, mesh, iterations);
+}
+
+}  // namespace
+
+Result<RingMesh> ring_mesh(const TriangleMesh& mesh, BoundaryRule boundary) {
+  Result<MovableRings> rings = movable_rings(mesh, boundary);
+  if (!rings) return rings.error();
+  RingMesh work{*std::move(rings), std::vector<Vec3d>(mesh.positions.size())};
+  std::transform(mesh.positions.begin(), mesh.positions.end(), work.positions.begin(),
+                 [](const Vec3f& p) { return Vec3d(p); });
+  return work;
+}
+
+Result<SweptMesh> swept_mesh(const TriangleMesh& mesh, BoundaryRule boundary, int passes,
+                             const Context& context, const SweepLayout& layout) {
+  Result<MovableRings> rings = movable_rings(mesh, boundary);
+  if (!rings) return rings.error();
+  SweptMesh work;
+  RingSweep& sweep = work.sweep;
+  if (!sweep.lay_out(context, std::move(rings->rings), passes, layout)) return cancelled();
+  work.follows = sweep.taken_over(rings->follows);
+  work.positions.resize(sweep.size());
+  for (std::size_t v = 0; v < sweep.size(); ++v) {
+    work.positions[v] = Vec3d(mesh.positions[sweep.in_mesh(v)]);
+  }
+  return work;
+}
+
+Context part_of_pass(const Context& context, int pass, int passes, const Adjacency& rings) {
+  Context share =
+      context.part(static_cast<double>(pass) / passes, (pass + 1.0) / static_cast<double>(passes));
+  if (is_little_work(rings.items().size(), passes)) share.threads = 1;
+  return share;
+}
+
+Result<SmoothingReport> commit_positions(TriangleMesh& mesh, const std::vector<Vec3d>& positions,
+                                         int iterations, const Context& context) {
+  std::vector<Vec3f> moved(positions.size());
+  std::transform(positions.begin(), positions.end(), moved.begin(),
+                 [](const Vec3d& p) { return Vec3f(p); });
+  return commit(mesh, std::move(moved), iterations, context);
+}
+
+Result<SmoothingReport> commit_positions(TriangleMesh& mesh, const RingSweep& sweep,
+                                         const LargeVector<Vec3d>& positions, int iterations,
+                                         const Context& context) {
+  std::vector<Vec3f> moved(positions.size());
+  for (std::size_t v = 0; v < moved.size(); ++v) moved[sweep.in_mesh(v)] = Vec3f(positions[v]);
+  return commit(mesh, std::move(moved), iterations, context);
 }
 
 }  // namespace burnish

@@ -69,31 +69,31 @@ const Schema<WindowedSincParams>& WindowedSincParams::schema() {
 Result<SmoothingReport> smooth_windowed_sinc(TriangleMesh& mesh, const WindowedSincParams& params,
                                              const Context& context) {
   if (auto valid = WindowedSincParams::schema().check(params); !valid) return valid.error();
-  Result<RingMesh> work = ring_mesh(mesh, params.boundary);
+  Result<SweptMesh> work = swept_mesh(mesh, params.boundary, params.iterations, context);
   if (!work) return work.error();
-  if (params.iterations == 0) return commit_positions(mesh, work->positions, 0, context);
+  const RingSweep& sweep = work->sweep;
+  if (params.iterations == 0) return commit_positions(mesh, sweep, work->positions, 0, context);
   const std::vector<double> factor = filter(params.iterations, params.pass_band);
 
   // Chebyshev's recurrence with x = I - K / 2: T_1 = x, T_n+1 = 2 x T_n - T_n-1.
-  std::vector<Vec3d> previous = work->positions, current = previous, filtered = previous;
-  std::vector<Vec3d> steps(current.size());
-  for (Vec3d& p : filtered) p *= factor[0];
-  for (int n = 1; n <= params.iterations; ++n) {
-    const Context share = part_of_pass(context, n - 1, params.iterations, work->rings);
-    if (!ring_steps(share, work->rings, current, steps)) return cancelled();
-    for (std::size_t v = 0; v < current.size(); ++v) {
-      const Vec3d step = work->follow(v) * steps[v];
-      const Vec3d next = n == 1 ? current[v] + step / 2 : 2. * current[v] + step - previous[v];
-      previous[v] = current[v];
-      current[v] = next;
-      filtered[v] += factor[static_cast<std::size_t>(n)] * next;
-    }
-  }
-  for (std::size_t v = 0; v < filtered.size(); ++v) {
-    // These stay to the last bit, which the sum above would round.
-    if (work->rings.row(v).empty()) filtered[v] = work->positions[v];
-  }
-  return commit_positions(mesh, filtered, params.iterations, context);
+  LargeVector<Vec3d>& even = work->positions;
+  LargeVector<Vec3d> odd(sweep.size()), filtered(sweep.size());
+  const auto step = [&](int pass, const RingTile& tile) {
+    const Vec3d* const current = (pass % 2 == 0 ? even : odd).data();
+    Vec3d* const other = (pass % 2 == 0 ? odd : even).data();  // T_n-1, which becomes T_n+1
+    const double share = factor[static_cast<std::size_t>(pass) + 1];
+    tile.for_each([&](std::uint32_t v, std::span<const std::uint32_t> ring) {
+      const Vec3d& now = current[v];
+      const Vec3d step_now = work->follow(v) * ring_step(current, v, ring);
+      const Vec3d next = pass == 0 ? now + step_now / 2 : 2. * now + step_now - other[v];
+      if (pass == 0) filtered[v] = ring.empty() ? now : factor[0] * now;
+      other[v] = next;
+      // Vertices that stay do so to the last bit, which the sum would round.
+      if (!ring.empty()) filtered[v] += share * next;
+    });
+  };
+  if (!sweep.run(context, params.iterations, step)) return cancelled();
+  return commit_positions(mesh, sweep, filtered, params.iterations, context);
 }
 
 }  // namespace burnish
