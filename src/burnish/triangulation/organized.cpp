@@ -205,8 +205,6 @@ Result<void> OrganizedTriangulator::triangulate(const PointCloud& cloud,
   mesh.positions.resize(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) mesh.positions[v] = cloud.positions[points[v]];
   mesh.frame = cloud.frame;
-  mesh.attributes = {};
-  mesh.triangle_attributes = {};
   if (context.cancelled()) return cancelled();
   context.progress(1);
   return {};

@@ -46,7 +46,7 @@ class OrganizedTriangulator {
   OrganizedTriangulator& operator=(OrganizedTriangulator&&) noexcept;
 
   /// Makes the positions, triangles and frame of `mesh` those of triangulate_organized(cloud,
-  /// params, context), without attributes. With one thread nothing is allocated where the
+  /// params, context); its attributes stay. With one thread nothing is allocated where the
   /// triangulator and the mesh have held a cloud of the same size before. Errors: those of
   /// triangulate_organized; `mesh` is then of no meaning.
   Result<void> triangulate(const PointCloud& cloud, const OrganizedParams& params,
