@@ -28,18 +28,18 @@ class GridPasses {
                       std::span<Vec3f> positions);
 
  private:
-  /// What a mask stands for: neighbours by their distance in pixels.
-  struct Ring {
-    std::uint32_t count = 0;
-    std::array<std::int32_t, 8> neighbours{};
-  };
-
-  void prepare(const GridRings& rings);
+  void prepare(const GridSize& size);
+  void sort_rows(const GridRings& rings, std::span<const std::uint32_t> pixels);
 
   GridSize size_;
-  std::array<Ring, 256> rings_;
+  std::array<std::array<std::int32_t, 8>, 256>
+      neighbours_{};                             ///< by mask, their distance in pixels
   std::array<std::vector<Vec3d>, 2> positions_;  ///< per pixel, before passes that are even and odd
   std::vector<std::size_t> first_;               ///< per row, the first vertex in it
+  /// The pixels of each row's vertices, those with as many neighbours side by side: the processor
+  /// can then foretell how long the next ring is.
+  std::vector<std::uint32_t> sorted_;
+  std::vector<std::array<std::uint32_t, 10>> groups_;  ///< per row, where each number begins
 };
 
 }  // namespace burnish
