@@ -32,13 +32,16 @@ class Adjacency {
 /// once. O(#V + #T).
 Adjacency triangles_of_vertices(const TriangleMesh& mesh);
 
-/// Per vertex the vertices joined to it by an edge, rising, once for every triangle on that edge:
-/// an interior neighbour is listed twice, one along a boundary once, one across a non-manifold edge
-/// more often. Itself left out. O(#V + #T).
-Adjacency edge_ends(const TriangleMesh& mesh);
+/// Which neighbours are listed of a vertex that lies on an edge without exactly two triangles (a
+/// boundary or a non-manifold edge).
+enum class BoundaryRings {
+  none,
+  along_boundary,  ///< those along such edges
+  all,
+};
 
 /// Per vertex the distinct vertices joined to it by an edge, rising, itself left out. O(#V + #T).
-Adjacency one_rings(const TriangleMesh& mesh);
+Adjacency one_rings(const TriangleMesh& mesh, BoundaryRings at_boundary = BoundaryRings::all);
 
 /// Per vertex whether it lies on an edge that does not have exactly two triangles (a boundary or
 /// a non-manifold edge); such vertices are what the boundary rules of smoothing speak of.
@@ -46,17 +49,5 @@ std::vector<bool> boundary_vertices(const TriangleMesh& mesh);
 
 /// Per vertex its neighbours along such edges only, rising.
 Adjacency boundary_neighbours(const TriangleMesh& mesh);
-
-/// Calls `visit(neighbour, triangles)` for every distinct neighbour in a row of edge_ends, rising,
-/// with the number of triangles on the edge to it.
-template <class Visit>
-void for_each_neighbour(std::span<const std::uint32_t> ends, Visit visit) {
-  for (std::size_t i = 0; i < ends.size();) {
-    std::size_t next = i + 1;
-    while (next < ends.size() && ends[next] == ends[i]) ++next;
-    visit(ends[i], next - i);
-    i = next;
-  }
-}
 
 }  // namespace burnish

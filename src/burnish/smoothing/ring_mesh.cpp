@@ -6,23 +6,15 @@
 namespace burnish {
 
 Adjacency smoothing_rings(const TriangleMesh& mesh, BoundaryRule boundary) {
-  if (boundary == BoundaryRule::free) return one_rings(mesh);
-  const Adjacency ends = edge_ends(mesh);
-  LargeVector<std::uint32_t> offsets{0}, items;
-  offsets.reserve(ends.size() + 1);
-  items.reserve(ends.items().size() / 2);
-  for (std::size_t v = 0; v < ends.size(); ++v) {
-    const std::size_t begin = items.size();
-    std::size_t along = begin;  // the neighbours along the boundary come to stand before this
-    for_each_neighbour(ends.row(v), [&](std::uint32_t w, std::size_t triangles) {
-      items.push_back(w);
-      if (triangles != 2) items[along++] = w;
-    });
-    const bool on_boundary = along > begin;
-    if (on_boundary) items.resize(boundary == BoundaryRule::along_boundary ? along : begin);
-    offsets.push_back(static_cast<std::uint32_t>(items.size()));
+  switch (boundary) {
+    case BoundaryRule::fixed:
+      return one_rings(mesh, BoundaryRings::none);
+    case BoundaryRule::along_boundary:
+      return one_rings(mesh, BoundaryRings::along_boundary);
+    case BoundaryRule::free:
+      break;
   }
-  return {std::move(offsets), std::move(items)};
+  return one_rings(mesh, BoundaryRings::all);
 }
 
 namespace {

@@ -9,7 +9,8 @@
 namespace burnish {
 namespace {
 
-constexpr int kFewPasses = 4;      ///< to number anew costs as much as fewer passes can save
+constexpr int kFewPasses = 4;      ///< to sort tiles costs as much as fewer passes can save
+constexpr int kSomePasses = 8;     ///< and to number all vertices anew
 constexpr int kMostTogether = 16;  ///< passes: more would save nothing
 constexpr std::uint32_t kNone = ~0u;
 
@@ -160,7 +161,7 @@ bool RingSweep::lay_out(const Context& context, Adjacency rings, int passes,
     Context quiet = context;
     quiet.sink = nullptr;
     const bool fits = static_cast<double>(size_) * bytes_per_vertex() <= cache;
-    if (fits || kFewPasses * bytes_apart() <= cache) {
+    if (fits || passes < kSomePasses || kFewPasses * bytes_apart() <= cache) {
       order_.resize(size_);
       std::iota(order_.begin(), order_.end(), 0u);
     } else if (!number_breadth_first(quiet)) {
