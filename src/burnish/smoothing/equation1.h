@@ -60,7 +60,13 @@ class Equation1 {
       greatest = farther ? distance : greatest;
       farthest = farther ? w : farthest;
     }
-    if (maybe_tied({distances, ring.size()}, least, greatest)) return tied_sum(positions, v, ring);
+    const std::span<const double> all_distances(distances, ring.size());
+    // Depths in whole millimetres bring many near to a first place and next to none into it.
+    if (maybe_tied(all_distances, least, greatest) &&
+        (shared(all_distances, least) || shared(all_distances, greatest) ||
+         maybe_symmetric(positions, v, ring, nearest, farthest))) {
+      return tied_sum(positions, v, ring);
+    }
     return {all + positions[nearest] + positions[farthest], static_cast<double>(ring.size() + 2)};
   }
 
@@ -82,11 +88,37 @@ class Equation1 {
     return at_first_places > 2;
   }
 
-  /// Whether the vertex lies in the middle between neighbours i and k as far as float coordinates,
+  /// Whether more than one is at the distance `extreme`.
+  static bool shared(std::span<const double> distances, double extreme) {
+    int count = 0;
+    for (const double distance : distances) count += equal(distance, extreme);
+    return count > 1;
+  }
+  static bool equal(double distance, double extreme) {
+    return std::abs(distance - extreme) <= kTie * extreme;
+  }
+
+  /// Whether the vertex lies in the middle between neighbours a and b as far as float coordinates,
   /// which are uncertain by `rounding_`, can say.
+  bool opposite(const Vec3d& a, const Vec3d& b, const Vec3d& vertex) const {
+    // Mostly the first coordinate says no.
+    return std::abs(a.x + b.x - 2 * vertex.x) <= rounding_ &&
+           std::abs(a.y + b.y - 2 * vertex.y) <= rounding_ &&
+           std::abs(a.z + b.z - 2 * vertex.z) <= rounding_;
+  }
   bool opposite(const RingView& ring, std::size_t i, std::size_t k) const {
-    const Vec3d offset = ring.neighbours[i] + ring.neighbours[k] - 2. * ring.centre;
-    return std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)}) <= rounding_;
+    return opposite(ring.neighbours[i], ring.neighbours[k], ring.centre);
+  }
+
+  /// Whether the nearest and the farthest neighbour at least have one opposite to them.
+  bool maybe_symmetric(const Vec3d* positions, std::uint32_t v, std::span<const std::uint32_t> ring,
+                       std::uint32_t nearest, std::uint32_t farthest) const {
+    const auto has_opposite = [&](std::uint32_t u) {
+      return std::any_of(ring.begin(), ring.end(), [&](std::uint32_t w) {
+        return opposite(positions[u], positions[w], positions[v]);
+      });
+    };
+    return has_opposite(farthest) && has_opposite(nearest);
   }
 
   /// Whether every neighbour has another one opposite to it.
@@ -112,13 +144,10 @@ class Equation1 {
   void share_out(const RingView& ring, std::span<const double> distances, double extreme,
                  bool symmetric, std::span<double> weights) const {
     const std::size_t count = distances.size();
-    const auto equal = [&](std::size_t i) {
-      return std::abs(distances[i] - extreme) <= kTie * extreme;
-    };
     const auto stands_for_it = [&](std::size_t i) {
-      if (equal(i)) return true;
+      if (equal(distances[i], extreme)) return true;
       for (std::size_t k = 0; symmetric && k < count; ++k) {
-        if (equal(k) && opposite(ring, i, k)) return true;
+        if (equal(distances[k], extreme) && opposite(ring, i, k)) return true;
       }
       return false;
     };

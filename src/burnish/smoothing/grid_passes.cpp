@@ -1,7 +1,5 @@
 #include "burnish/smoothing/grid_passes.h"
 
-#include <bit>
-
 #include "burnish/smoothing/equation1.h"
 
 namespace burnish {
@@ -40,9 +38,9 @@ void GridPasses::prepare(const GridSize& size) {
   size_ = size;
   const auto neighbours = grid_neighbours(size_.width);
   for (std::size_t mask = 0; mask < neighbours_.size(); ++mask) {
-    std::size_t count = 0;
+    counts_[mask] = 0;
     for (std::size_t k = 0; k < 8; ++k) {
-      if (mask >> k & 1) neighbours_[mask][count++] = neighbours[k];
+      if (mask >> k & 1) neighbours_[mask][counts_[mask]++] = neighbours[k];
     }
   }
   const std::size_t pixels = std::size_t{size_.width} * size_.height;
@@ -58,14 +56,13 @@ void GridPasses::sort_rows(const GridRings& rings, std::span<const std::uint32_t
     const std::size_t begin = first_[row] = next;
     std::array<std::uint32_t, 10> place{};
     for (; next < pixels.size() && pixels[next] < (row + 1) * size_.width; ++next) {
-      ++place[static_cast<std::size_t>(std::popcount(rings.inner[pixels[next]])) + 1];
+      ++place[counts_[rings.inner[pixels[next]]] + 1u];
     }
     place[0] = static_cast<std::uint32_t>(begin);
     for (std::size_t count = 1; count < place.size(); ++count) place[count] += place[count - 1];
     groups_[row] = place;
     for (std::size_t v = begin; v < next; ++v) {
-      const auto count = static_cast<std::size_t>(std::popcount(rings.inner[pixels[v]]));
-      sorted_[place[count]++] = pixels[v];
+      sorted_[place[counts_[rings.inner[pixels[v]]]]++] = pixels[v];
     }
   }
   first_[size_.height] = next;

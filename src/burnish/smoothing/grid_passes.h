@@ -34,6 +34,7 @@ class GridPasses {
   GridSize size_;
   std::array<std::array<std::int32_t, 8>, 256>
       neighbours_{};                             ///< by mask, their distance in pixels
+  std::array<std::uint8_t, 256> counts_{};       ///< by mask, how many they are
   std::array<std::vector<Vec3d>, 2> positions_;  ///< per pixel, before passes that are even and odd
   std::vector<std::size_t> first_;               ///< per row, the first vertex in it
   /// The pixels of each row's vertices, those with as many neighbours side by side: the processor
