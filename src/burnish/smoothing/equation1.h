@@ -26,6 +26,10 @@ class Equation1 {
     rounding_ = kRounding * largest;
   }
 
+  /// How uncertain coordinates are, m.
+  double rounding() const { return rounding_; }
+  static constexpr double kTie = 2e-9;  ///< of a squared distance: 1e-9 of a distance
+
   double operator()(const RingView& ring, std::span<double> weights,
                     std::span<double> distances) const {
     for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -71,7 +75,6 @@ class Equation1 {
   }
 
  private:
-  static constexpr double kTie = 2e-9;       ///< of a squared distance: 1e-9 of a distance
   static constexpr double kRounding = 1e-6;  ///< of the largest coordinate: some roundings to float
   static constexpr std::size_t kShort = 32;
 

@@ -1,71 +1,22 @@
 #include "burnish/smoothing/grid_passes.h"
 
-#include "burnish/smoothing/equation1.h"
+#include <algorithm>
 
 namespace burnish {
 
-namespace {
-
-/// One pass over vertices that have `count` neighbours each.
-template <std::size_t count>
-void move(const Equation1& weigh, double hold, const std::array<std::int32_t, 8>* neighbours,
-          const std::uint8_t* masks, std::span<const std::uint32_t> pixels, const Vec3d* now,
-          Vec3d* next) {
-  for (const std::uint32_t pixel : pixels) {
-    if constexpr (count == 0) {
-      next[pixel] = now[pixel];
-    } else {
-      const auto& around = neighbours[masks[pixel]];
-      std::array<std::uint32_t, count> ring;
-      for (std::size_t k = 0; k < count; ++k) {
-        ring[k] = pixel + static_cast<std::uint32_t>(around[k]);
-      }
-      const WeightedSum all = weigh.sum(now, pixel, ring);
-      next[pixel] = (1 - hold) * (all.sum / all.weight) + hold * now[pixel];
-    }
+void GridPasses::prepare(const GridSize& size, std::span<const std::uint32_t> pixels) {
+  if (size_ != size) {
+    size_ = size;
+    for (Planes& planes : planes_) planes.resize(size.width, size.height);
+    first_.resize(std::size_t{size.height} + 1);
+    masks_.assign(std::size_t{size.width} + Planes::kLanes, 0);
   }
-}
-
-constexpr auto kMoves = [] {
-  return std::array{move<0>, move<1>, move<2>, move<3>, move<4>,
-                    move<5>, move<6>, move<7>, move<8>};
-}();
-
-}  // namespace
-
-void GridPasses::prepare(const GridSize& size) {
-  if (size_ == size) return;
-  size_ = size;
-  const auto neighbours = grid_neighbours(size_.width);
-  for (std::size_t mask = 0; mask < neighbours_.size(); ++mask) {
-    counts_[mask] = 0;
-    for (std::size_t k = 0; k < 8; ++k) {
-      if (mask >> k & 1) neighbours_[mask][counts_[mask]++] = neighbours[k];
-    }
-  }
-  const std::size_t pixels = std::size_t{size_.width} * size_.height;
-  for (auto& positions : positions_) positions.resize(pixels);
-  sorted_.resize(pixels);
-  first_.resize(std::size_t{size_.height} + 1);
-  groups_.resize(size_.height);
-}
-
-void GridPasses::sort_rows(const GridRings& rings, std::span<const std::uint32_t> pixels) {
   std::size_t next = 0;
-  for (std::size_t row = 0; row < size_.height; ++row) {
-    const std::size_t begin = first_[row] = next;
-    std::array<std::uint32_t, 10> place{};
-    for (; next < pixels.size() && pixels[next] < (row + 1) * size_.width; ++next) {
-      ++place[counts_[rings.inner[pixels[next]]] + 1u];
-    }
-    place[0] = static_cast<std::uint32_t>(begin);
-    for (std::size_t count = 1; count < place.size(); ++count) place[count] += place[count - 1];
-    groups_[row] = place;
-    for (std::size_t v = begin; v < next; ++v) {
-      sorted_[place[counts_[rings.inner[pixels[v]]]]++] = pixels[v];
-    }
+  for (std::size_t row = 0; row < size.height; ++row) {
+    first_[row] = next;
+    while (next < pixels.size() && pixels[next] < (row + 1) * size.width) ++next;
   }
-  first_[size_.height] = next;
+  first_[size.height] = next;
 }
 
 Result<void> GridPasses::smooth(const GridRings& rings, std::span<const std::uint32_t> pixels,
@@ -77,39 +28,39 @@ Result<void> GridPasses::smooth(const GridRings& rings, std::span<const std::uin
                  "on an image grid boundary = fixed and order = jacobi are expected",
                  {}};
   }
-  prepare(rings.size);
-  sort_rows(rings, pixels);
-  const std::size_t height = size_.height;
+  prepare(rings.size, pixels);
+  const std::size_t width = size_.width, height = size_.height;
   const auto passes = static_cast<std::size_t>(params.iterations);
   const Equation1 weigh(positions);
-  const double hold = params.damping;
-  const auto fill_row = [&](std::size_t row) {
+  const auto put = [&](std::size_t row) {
+    double *x = planes_[0].row(0, row), *y = planes_[0].row(1, row), *z = planes_[0].row(2, row);
     for (std::size_t v = first_[row]; v < first_[row + 1]; ++v) {
-      positions_[0][pixels[v]] = Vec3d(positions[v]);
+      const std::size_t column = pixels[v] - row * width;
+      x[column] = double{positions[v].x};
+      y[column] = double{positions[v].y};
+      z[column] = double{positions[v].z};
     }
   };
-  const auto pass_over_row = [&](std::size_t pass, std::size_t row) {
-    const Vec3d* const now = positions_[pass % 2].data();
-    Vec3d* const next = positions_[1 - pass % 2].data();
-    const auto& group = groups_[row];
-    for (std::size_t count = 0; count < kMoves.size(); ++count) {
-      const std::span<const std::uint32_t> alike(sorted_.data() + group[count],
-                                                 group[count + 1] - group[count]);
-      if (!alike.empty()) {
-        kMoves[count](weigh, hold, neighbours_.data(), rings.inner.data(), alike, now, next);
-      }
+  const auto take = [&](std::size_t row) {
+    const Planes& result = planes_[passes % 2];
+    const double *x = result.row(0, row), *y = result.row(1, row), *z = result.row(2, row);
+    for (std::size_t v = first_[row]; v < first_[row + 1]; ++v) {
+      const std::size_t column = pixels[v] - row * width;
+      positions[v] = Vec3f(Vec3d{x[column], y[column], z[column]});
     }
   };
   for (std::size_t row = 0; row < height + passes; ++row) {
     if (context.cancelled()) return cancelled();
-    if (row < height) fill_row(row);
+    if (row < height) put(row);
     for (std::size_t pass = 0; pass < passes && pass < row; ++pass) {
       const std::size_t behind = row - pass - 1;
-      if (behind < height) pass_over_row(pass, behind);
+      if (behind >= height) continue;
+      std::copy_n(rings.inner.data() + behind * width, width, masks_.data());
+      move_row(planes_[pass % 2], planes_[1 - pass % 2], masks_.data(), behind, width, weigh,
+               params.damping);
     }
   }
-  const std::vector<Vec3d>& result = positions_[passes % 2];
-  for (std::size_t v = 0; v < pixels.size(); ++v) positions[v] = Vec3f(result[pixels[v]]);
+  for (std::size_t row = 0; row < height; ++row) take(row);
   context.progress(1);
   return {};
 }

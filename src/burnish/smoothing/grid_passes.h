@@ -7,6 +7,7 @@
 
 #include "burnish/base/context.h"
 #include "burnish/core/grid_rings.h"
+#include "burnish/smoothing/grid_row.h"
 #include "burnish/smoothing/nearest_farthest.h"
 
 namespace burnish {
@@ -28,19 +29,12 @@ class GridPasses {
                       std::span<Vec3f> positions);
 
  private:
-  void prepare(const GridSize& size);
-  void sort_rows(const GridRings& rings, std::span<const std::uint32_t> pixels);
+  void prepare(const GridSize& size, std::span<const std::uint32_t> pixels);
 
   GridSize size_;
-  std::array<std::array<std::int32_t, 8>, 256>
-      neighbours_{};                             ///< by mask, their distance in pixels
-  std::array<std::uint8_t, 256> counts_{};       ///< by mask, how many they are
-  std::array<std::vector<Vec3d>, 2> positions_;  ///< per pixel, before passes that are even and odd
-  std::vector<std::size_t> first_;               ///< per row, the first vertex in it
-  /// The pixels of each row's vertices, those with as many neighbours side by side: the processor
-  /// can then foretell how long the next ring is.
-  std::vector<std::uint32_t> sorted_;
-  std::vector<std::array<std::uint32_t, 10>> groups_;  ///< per row, where each number begins
+  std::array<Planes, 2> planes_;     ///< before passes that are even and odd
+  std::vector<std::size_t> first_;   ///< per row, the first vertex in it
+  std::vector<std::uint8_t> masks_;  ///< of one row
 };
 
 }  // namespace burnish
