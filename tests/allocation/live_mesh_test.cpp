@@ -1,46 +1,12 @@
-// This program counts what is allocated: operator new is replaced for all of it.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
+#include <cmath>
+#include <vector>
 
+#include "allocation/counted_allocations.h"
 #include "burnish/base/random.h"
 #include "burnish/pipeline/live_mesh.h"
 #include "support/depth_scenes.h"
-
-namespace {
-
-std::size_t allocations = 0;
-
-void* allocate(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  if (void* memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
 
 namespace burnish {
 namespace {
@@ -58,9 +24,9 @@ DepthFrame frame_with(double missing, std::uint64_t seed) {
 }
 
 TEST(Allocations, AreCounted) {
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocations();
   const std::vector<int> numbers(10);
-  EXPECT_EQ(allocations, before + 1);
+  EXPECT_EQ(test::allocations(), before + 1);
 }
 
 TEST(LiveMesh, AllocatesNothingAfterTheFirstFrame) {
@@ -79,9 +45,9 @@ TEST(LiveMesh, AllocatesNothingAfterTheFirstFrame) {
     LiveMesh live(params);
     ASSERT_TRUE(live.update(frames.front(), context));
     for (std::size_t i = 1; i < frames.size(); ++i) {
-      const std::size_t before = allocations;
+      const std::size_t before = test::allocations();
       const auto done = live.update(frames[i], context);
-      const std::size_t now = allocations;
+      const std::size_t now = test::allocations();
       ASSERT_TRUE(done) << done.error().text();
       EXPECT_EQ(now, before) << "frame " << i;
     }

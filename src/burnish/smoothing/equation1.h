@@ -36,10 +36,7 @@ class Equation1 {
       distances[i] = squared_norm(ring.neighbours[i] - ring.centre);
     }
     const auto [least, greatest] = std::minmax_element(distances.begin(), distances.end());
-    const bool symmetric = maybe_tied(distances, *least, *greatest) && point_symmetric(ring);
-    std::fill(weights.begin(), weights.end(), 1.0);
-    share_out(ring, distances, *least, symmetric, weights);
-    share_out(ring, distances, *greatest, symmetric, weights);
+    settle(ring, distances, *least, *greatest, maybe_tied(distances, *least, *greatest), weights);
     return 0;
   }
 
@@ -69,14 +66,15 @@ class Equation1 {
     if (maybe_tied(all_distances, least, greatest) &&
         (shared(all_distances, least) || shared(all_distances, greatest) ||
          maybe_symmetric(positions, v, ring, nearest, farthest))) {
-      return tied_sum(positions, v, ring);
+      return tied_sum(positions, v, ring, all_distances, least, greatest);
     }
     return {all + positions[nearest] + positions[farthest], static_cast<double>(ring.size() + 2)};
   }
 
  private:
   static constexpr double kRounding = 1e-6;  ///< of the largest coordinate: some roundings to float
-  static constexpr std::size_t kShort = 32;
+  static constexpr std::size_t kShort = 16;
+  static constexpr std::size_t kBits = 64;
 
   /// Whether anybody comes so near to a first place that there may be a tie to settle.
   bool maybe_tied(std::span<const double> distances, double least, double greatest) const {
@@ -147,15 +145,22 @@ class Equation1 {
   void share_out(const RingView& ring, std::span<const double> distances, double extreme,
                  bool symmetric, std::span<double> weights) const {
     const std::size_t count = distances.size();
+    std::uint64_t equals = 0;  // who of the first neighbours is at that distance
+    for (std::size_t i = 0; i < std::min(count, kBits); ++i) {
+      equals |= std::uint64_t{equal(distances[i], extreme)} << i;
+    }
     const auto stands_for_it = [&](std::size_t i) {
       if (equal(distances[i], extreme)) return true;
-      for (std::size_t k = 0; symmetric && k < count; ++k) {
+      if (!symmetric) return false;
+      for (std::uint64_t left = equals; left != 0; left &= left - 1) {
+        if (opposite(ring, i, static_cast<std::size_t>(std::countr_zero(left)))) return true;
+      }
+      for (std::size_t k = kBits; k < count; ++k) {
         if (equal(distances[k], extreme) && opposite(ring, i, k)) return true;
       }
       return false;
     };
-    constexpr std::size_t kBits = 64;
-    std::uint64_t first = 0;  // who of the first neighbours does, to ask but once
+    std::uint64_t first = 0;  // who of them does, to ask but once
     for (std::size_t i = 0; i < std::min(count, kBits); ++i) {
       first |= std::uint64_t{stands_for_it(i)} << i;
     }
@@ -168,15 +173,24 @@ class Equation1 {
     for (std::size_t i = 0; i < count; ++i) weights[i] += does(i) ? share : 0;
   }
 
-  /// `sum` where there is a tie; of short rings.
-  WeightedSum tied_sum(const Vec3d* positions, std::uint32_t v,
-                       std::span<const std::uint32_t> ring) const {
+  /// The weights, where `maybe_tied` says how it is.
+  void settle(const RingView& ring, std::span<const double> distances, double least,
+              double greatest, bool maybe_tied, std::span<double> weights) const {
+    const bool symmetric = maybe_tied && point_symmetric(ring);
+    std::fill(weights.begin(), weights.end(), 1.0);
+    share_out(ring, distances, least, symmetric, weights);
+    share_out(ring, distances, greatest, symmetric, weights);
+  }
+
+  /// `sum` where there may be a tie; of short rings.
+  WeightedSum tied_sum(const Vec3d* positions, std::uint32_t v, std::span<const std::uint32_t> ring,
+                       std::span<const double> distances, double least, double greatest) const {
     std::array<Vec3d, kShort> neighbours;
-    std::array<double, kShort> weights, distances;
+    std::array<double, kShort> weights;
     for (std::size_t i = 0; i < ring.size(); ++i) neighbours[i] = positions[ring[i]];
-    const double own = (*this)({v, positions[v], ring, {neighbours.data(), ring.size()}},
-                               {weights.data(), ring.size()}, {distances.data(), ring.size()});
-    WeightedSum result{own * positions[v], own};
+    settle({v, positions[v], ring, {neighbours.data(), ring.size()}}, distances, least, greatest,
+           true, {weights.data(), ring.size()});
+    WeightedSum result{0. * positions[v], 0};
     for (std::size_t i = 0; i < ring.size(); ++i) {
       result.weight += weights[i];
       result.sum += weights[i] * neighbours[i];

@@ -1,6 +1,5 @@
 #include "burnish/smoothing/grid_row.h"
 
-#include <bit>
 #include <limits>
 
 namespace burnish {
@@ -12,25 +11,41 @@ std::array<std::ptrdiff_t, 8> places(const Planes& planes) {
   return {-row - 1, -row, -row + 1, -1, 1, row - 1, row, row + 1};
 }
 
+/// What a mask says: how many neighbours there are, and at which places the first of them are.
+struct Ring {
+  std::uint8_t count = 0;
+  std::array<std::uint8_t, 8> places{};
+};
+constexpr std::array<Ring, 256> kRings = [] {
+  std::array<Ring, 256> rings{};
+  for (std::size_t mask = 0; mask < 256; ++mask) {
+    Ring& ring = rings[mask];
+    for (std::uint8_t k = 0; k < 8; ++k) {
+      if ((mask >> k & 1) != 0) ring.places[ring.count++] = k;
+    }
+  }
+  return rings;
+}();
+
 /// One vertex, by the operation's own arithmetic.
 void move_one(const Planes& now, Planes& next, std::uint8_t mask, std::size_t y, std::size_t x,
               const Equation1& weigh, double hold) {
+  static constexpr std::array<std::uint32_t, 8> kNumbers{0, 1, 2, 3, 4, 5, 6, 7};
   const double *px = now.row(0, y) + x, *py = now.row(1, y) + x, *pz = now.row(2, y) + x;
   const auto around = places(now);
+  const Ring& ring = kRings[mask];
   std::array<Vec3d, 9> positions;
-  std::array<std::uint32_t, 8> ring;
-  std::uint32_t count = 0;
-  for (std::size_t k = 0; k < 8; ++k) {
-    if ((mask >> k & 1) == 0) continue;
-    positions[count] = {px[around[k]], py[around[k]], pz[around[k]]};
-    ring[count] = count;
-    ++count;
+  for (std::size_t i = 0; i < 8; ++i) {  // all: how many there are cannot be foretold
+    const std::ptrdiff_t place = around[ring.places[i]];
+    positions[i] = {px[place], py[place], pz[place]};
   }
   const Vec3d centre = positions[8] = {*px, *py, *pz};
-  const WeightedSum all = weigh.sum(positions.data(), 8, {ring.data(), count});
+  const WeightedSum all = weigh.sum(positions.data(), 8, {kNumbers.data(), ring.count});
   const Vec3d moved = (1 - hold) * (all.sum / all.weight) + hold * centre;
   for (std::size_t axis = 0; axis < 3; ++axis) next.row(axis, y)[x] = moved[axis];
 }
+
+}  // namespace
 
 void move_one_by_one(const Planes& now, Planes& next, const std::uint8_t* masks, std::size_t y,
                      std::size_t width, const Equation1& weigh, double hold) {
@@ -43,7 +58,6 @@ void move_one_by_one(const Planes& now, Planes& next, const std::uint8_t* masks,
   }
 }
 
-}  // namespace
 }  // namespace burnish
 
 #if defined(__x86_64__)
@@ -68,7 +82,7 @@ constexpr double kMore = 1.001;
 /// What Eq. 1 divides by, by mask.
 constexpr std::array<double, 256> kWeights = [] {
   std::array<double, 256> weights{};
-  for (unsigned mask = 0; mask < 256; ++mask) weights[mask] = 2 + std::popcount(mask);
+  for (std::size_t mask = 0; mask < 256; ++mask) weights[mask] = 2 + kRings[mask].count;
   return weights;
 }();
 

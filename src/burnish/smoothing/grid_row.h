@@ -42,4 +42,8 @@ class Planes {
 void move_row(const Planes& now, Planes& next, const std::uint8_t* masks, std::size_t y,
               std::size_t width, const Equation1& weigh, double hold);
 
+/// The same without instructions that some machines lack.
+void move_one_by_one(const Planes& now, Planes& next, const std::uint8_t* masks, std::size_t y,
+                     std::size_t width, const Equation1& weigh, double hold);
+
 }  // namespace burnish
