@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "burnish/base/version.h"
+#include "heap.h"
 #include "interrupt.h"
 #include "terminal.h"
 #include "verb.h"
@@ -85,6 +86,7 @@ int run(int count, char** words) {
 }  // namespace burnish::app
 
 int main(int count, char** words) {
+  burnish::app::prepare_heap();
   try {
     return burnish::app::run(count, words);
   } catch (const std::bad_alloc&) {

@@ -101,15 +101,15 @@ struct Rows {
 };
 
 Adjacency neighbours(EdgeEnds ends, const Rows& rows) {
-  std::size_t open = 0;
-  for (std::size_t v = 0; v < ends.size(); ++v) open += !ends.closed(v);
-  if (open == 0 && rows.inner) return ends.take_tails();
+  std::size_t first_open = 0;
+  while (first_open < ends.size() && ends.closed(first_open)) ++first_open;
+  if (first_open == ends.size() && rows.inner) return ends.take_tails();
 
   Numbers offsets(ends.size() + 1), items;
   offsets[0] = 0;
   if (rows.inner) items.reserve(ends.tails_in_all());
   for (std::size_t v = 0; v < ends.size(); ++v) {
-    const bool closed = ends.closed(v);
+    const bool closed = v < first_open || ends.closed(v);
     if (closed && rows.inner) {
       items.insert(items.end(), ends.tails(v).begin(), ends.tails(v).end());
     } else if (!closed) {

@@ -26,14 +26,15 @@ Result<SmoothingReport> smooth_gaussian(TriangleMesh& mesh, const GaussianParams
   const double width = params.relative_width * mean_edge_length(mesh);
   // A mesh whose edges all have length 0 is a point: any weights leave it where it is.
   const double factor = width > 0 ? -1 / (2 * width * width) : 0;
-  return filter_rings(mesh, {.iterations = params.iterations, .boundary = params.boundary}, context,
-                      [factor](const RingView& ring, std::span<double> weights, std::span<double>) {
-                        for (std::size_t i = 0; i < weights.size(); ++i) {
-                          weights[i] =
-                              std::exp(factor * squared_norm(ring.neighbours[i] - ring.centre));
-                        }
-                        return 1.0;
-                      });
+  return filter_rings(
+      mesh,
+      {.iterations = params.iterations, .boundary = params.boundary, .layout = {.effort = 10}},
+      context, [factor](const RingView& ring, std::span<double> weights, std::span<double>) {
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+          weights[i] = std::exp(factor * squared_norm(ring.neighbours[i] - ring.centre));
+        }
+        return 1.0;
+      });
 }
 
 }  // namespace burnish

@@ -75,7 +75,8 @@ Result<SmoothingReport> smooth_laplacian(TriangleMesh& mesh, const LaplacianPara
     return filter_rings(mesh, passes, context, EqualWeights{});
   }
   if (auto sound = check(mesh); !sound) return sound.error();
-  passes.layout.numbering = Numbering::as_given;  // the fans of triangles keep theirs
+  // The fans of triangles keep their vertices' numbers.
+  passes.layout = {.numbering = Numbering::as_given, .effort = 20};
   return filter_rings(mesh, passes, context, CotangentWeights(mesh, params.boundary));
 }
 

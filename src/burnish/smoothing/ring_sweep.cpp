@@ -12,30 +12,17 @@ namespace {
 constexpr int kFewPasses = 4;      ///< to sort tiles costs as much as fewer passes can save
 constexpr int kSomePasses = 8;     ///< and to number all vertices anew
 constexpr int kMostTogether = 16;  ///< passes: more would save nothing
-constexpr std::uint32_t kNone = ~0u;
+
+LargeVector<std::uint32_t> counted(std::size_t count) {
+  LargeVector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  return numbers;
+}
 
 std::size_t longest_row(const Adjacency& rows) {
   std::size_t longest = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) longest = std::max(longest, rows.row(i).size());
   return longest;
-}
-
-/// Appends the vertices that can be reached from those in order[first..] and have no rank yet.
-/// False where the context was cancelled.
-bool spread(const Context& context, const Adjacency& rings, std::size_t first,
-            LargeVector<std::uint32_t>& order, LargeVector<std::uint32_t>& rank,
-            std::size_t& count) {
-  for (std::size_t next = first; next < count; ++next) {
-    if (next % 65536 == 0 && context.cancelled()) return false;
-    for (const std::uint32_t w : rings.row(order[next])) {
-      // Whether a neighbour is new cannot be predicted, so no branch may depend on it.
-      const bool is_new = rank[w] == kNone;
-      order[count] = w;
-      rank[w] = is_new ? static_cast<std::uint32_t>(count) : rank[w];
-      count += is_new;
-    }
-  }
-  return true;
 }
 
 /// Stable; rings of kLengths or more neighbours are not told apart.
@@ -56,7 +43,7 @@ void sort_by_length(const Adjacency& rings, std::span<std::uint32_t> vertices) {
 
 double RingSweep::bytes_per_vertex() const {
   return 2 * sizeof(Vec3d) + sizeof(std::uint32_t) * (1 + static_cast<double>(ring_items()) /
-                                                              static_cast<double>(size_));
+                                                              static_cast<double>(size()));
 }
 
 /// What two passes of a wave that follow each other have between them.
@@ -65,63 +52,58 @@ double RingSweep::bytes_apart() const {
   for (std::size_t tile = 0; tile < needs_.size(); ++tile) {
     apart += static_cast<double>(needs_[tile] - tile);
   }
-  return apart / static_cast<double>(needs_.size()) * static_cast<double>(tile_) *
+  return apart / static_cast<double>(needs_.size()) * static_cast<double>(tiling_.length()) *
          bytes_per_vertex();
 }
 
-/// A tile waits for all that it reads, and for all that read it. starts: per tile its first item,
-/// and the end of the last.
-void RingSweep::find_reach(const std::vector<std::size_t>& starts,
-                           std::span<const std::uint32_t> items) {
-  needs_.resize(tiles());
-  for (std::uint32_t tile = 0; tile < needs_.size(); ++tile) needs_[tile] = tile + 1;
-  for (std::uint32_t tile = 0; tile < needs_.size(); ++tile) {
-    std::uint32_t lowest = kNone, highest = 0;
-    for (std::size_t i = starts[tile]; i < starts[tile + 1]; ++i) {
-      lowest = std::min(lowest, items[i]);
-      highest = std::max(highest, items[i]);
+/// Puts vertices in an order in which rings lead to near tiles, as far as that pays.
+bool RingSweep::number_anew(const Context& context, double cache, int passes) {
+  const auto is_near = [&] { return kFewPasses * bytes_apart() <= cache; };
+  std::vector<std::size_t> starts;
+  for (std::size_t tile = 0; tile < tiling_.count(); ++tile) {
+    starts.push_back(rings_.offsets()[tiling_.range(tile).begin]);
+  }
+  starts.push_back(rings_.items().size());
+  const std::optional<Adjacency> joined = joined_tiles(tiling_, starts, rings_.items());
+  LargeVector<std::uint32_t> tiles = counted(tiling_.count());
+  needs_ = needs_of(tiling_, joined, tiles);
+  order_.clear();
+  if (passes < kFewPasses) return true;
+  if (joined && !is_near()) {
+    if (!breadth_first(context, *joined, tiles)) return false;
+    needs_ = needs_of(tiling_, joined, tiles);
+  }
+  if (!is_near() && passes >= kSomePasses) {
+    needs_.clear();  // nothing is known of the tiles that come of this
+    return breadth_first(context, rings_, order_);
+  }
+  order_.reserve(size());
+  for (const std::uint32_t tile : tiles) {
+    const IndexRange range = tiling_.range(tile);
+    for (std::size_t v = range.begin; v < range.end; ++v) {
+      order_.push_back(static_cast<std::uint32_t>(v));
     }
-    if (lowest == kNone) continue;
-    const std::size_t first = lowest / tile_;
-    needs_[first] = std::max(needs_[first], tile + 1);
-    needs_[tile] = std::max(needs_[tile], static_cast<std::uint32_t>(highest / tile_ + 1));
   }
-  // Tiles come in their order, so that one behind another needs no less.
-  std::partial_sum(needs_.begin(), needs_.end(), needs_.begin(),
-                   [](std::uint32_t a, std::uint32_t b) { return std::max(a, b); });
-}
-
-bool RingSweep::number_breadth_first(const Context& context) {
-  order_.resize(size_ + 1);  // a place for the one that turns out to have been there
-  LargeVector<std::uint32_t> rank(size_, kNone);
-  std::size_t count = 0;
-  for (std::uint32_t seed = 0; seed < size_; ++seed) {
-    if (rank[seed] != kNone) continue;
-    const std::size_t first = count;
-    rank[seed] = static_cast<std::uint32_t>(count);
-    order_[count++] = seed;
-    if (!spread(context, rings_, first, order_, rank, count)) return false;
-  }
-  order_.resize(size_);
   return true;
 }
 
 /// Puts the vertices of each tile in the order of the lengths of their rings, and the rings, with
 /// the new numbers, one behind the other.
 bool RingSweep::sort_tiles(const Context& context) {
-  LargeVector<std::uint32_t> rank(size_);
-  std::vector<std::size_t> lengths(tiles(), 0);
-  runs_.resize(tiles());
+  const std::size_t tiles = tiling_.count();
+  LargeVector<std::uint32_t> rank(size());
+  std::vector<std::size_t> lengths(tiles, 0);
+  runs_.resize(tiles);
   const auto every_tile = [&](auto body) {
     return parallel_for(
-        context, tiles(),
+        context, tiles,
         [&](IndexRange range) {
           for (std::size_t tile = range.begin; tile < range.end; ++tile) body(tile);
         },
         8);
   };
   const bool sorted = every_tile([&](std::size_t tile) {
-    const IndexRange range = vertices(tile);
+    const IndexRange range = tiling_.range(tile);
     sort_by_length(rings_, std::span(order_).subspan(range.begin, range.end - range.begin));
     std::vector<RingTile::Run>& runs = runs_[tile];
     for (std::size_t v = range.begin; v < range.end; ++v) {
@@ -133,12 +115,12 @@ bool RingSweep::sort_tiles(const Context& context) {
     }
   });
   if (!sorted) return false;
-  first_item_.assign(tiles() + 1, 0);
+  first_item_.assign(tiles + 1, 0);
   std::partial_sum(lengths.begin(), lengths.end(), first_item_.begin() + 1);
   items_.resize(first_item_.back());
   return every_tile([&](std::size_t tile) {
     std::uint32_t* item = items_.data() + first_item_[tile];
-    const IndexRange range = vertices(tile);
+    const IndexRange range = tiling_.range(tile);
     for (std::size_t v = range.begin; v < range.end; ++v) {
       for (const std::uint32_t w : rings_.row(order_[v])) *item++ = rank[w];
     }
@@ -148,28 +130,29 @@ bool RingSweep::sort_tiles(const Context& context) {
 bool RingSweep::lay_out(const Context& context, Adjacency rings, int passes,
                         const SweepLayout& layout) {
   rings_ = std::move(rings);
-  size_ = rings_.size();
-  tile_ = layout.tile;
+  tiling_ = {rings_.size(), layout.tile_bits};
   longest_ = longest_row(rings_);
-  if (size_ == 0) return true;
+  effort_ = layout.effort;
+  if (size() == 0) return true;
+  Context quiet = context;
+  quiet.sink = nullptr;
+  if (is_little_work(ring_items(), passes, effort_)) quiet.threads = 1;
+  // What is numbered as given saves nothing by other numbers.
+  const int saving = layout.numbering == Numbering::as_given ? 0 : passes;
   const auto cache = static_cast<double>(layout.cache);
-  std::vector<std::size_t> starts;
-  for (std::size_t v = 0; v < size_; v += tile_) starts.push_back(rings_.offsets()[v]);
-  starts.push_back(rings_.items().size());
-  find_reach(starts, rings_.items());
-  if (layout.numbering == Numbering::near && passes >= kFewPasses) {
-    Context quiet = context;
-    quiet.sink = nullptr;
-    const bool fits = static_cast<double>(size_) * bytes_per_vertex() <= cache;
-    if (fits || passes < kSomePasses || kFewPasses * bytes_apart() <= cache) {
-      order_.resize(size_);
-      std::iota(order_.begin(), order_.end(), 0u);
-    } else if (!number_breadth_first(quiet)) {
-      return false;
-    }
+  if (passes < 2 || static_cast<double>(size()) * bytes_per_vertex() <= cache) {
+    needs_.assign(tiling_.count(), static_cast<std::uint32_t>(tiling_.count()));
+    if (saving >= kFewPasses) order_ = counted(size());
+  } else if (!number_anew(quiet, cache, saving)) {
+    return false;
+  }
+  if (!order_.empty()) {
     if (!sort_tiles(quiet)) return false;
     rings_ = {};
-    find_reach(first_item_, items_);
+  }
+  if (needs_.empty()) {
+    needs_ =
+        needs_of(tiling_, joined_tiles(tiling_, first_item_, items_), counted(tiling_.count()));
   }
   together_ = static_cast<int>(std::clamp(cache / bytes_apart(), 1., double{kMostTogether}));
   return true;
@@ -181,10 +164,10 @@ bool RingSweep::run(const Context& context, int passes,
     const int count = std::min(together_, passes - first);
     Context share = context.part(static_cast<double>(first) / passes,
                                  static_cast<double>(first + count) / passes);
-    if (is_little_work(ring_items(), passes)) share.threads = 1;
+    if (is_little_work(ring_items(), passes, effort_)) share.threads = 1;
     const bool complete = parallel_passes(
         share, static_cast<std::size_t>(count), needs_, [&](std::size_t pass, std::size_t tile) {
-          const IndexRange range = vertices(tile);
+          const IndexRange range = tiling_.range(tile);
           const auto begin = static_cast<std::uint32_t>(range.begin),
                      end = static_cast<std::uint32_t>(range.end);
           const RingTile rings = runs_.empty() ? RingTile(begin, end, rings_)

@@ -6,18 +6,17 @@
 #include <span>
 #include <vector>
 
-#include "burnish/base/context.h"
-#include "burnish/base/parallel.h"
 #include "burnish/core/adjacency.h"
+#include "burnish/smoothing/tile_order.h"
 
 // How the smoothings that make many passes over one-rings go through memory. Not part of the
 // library's interface.
 namespace burnish {
 
 /// Whether passes over rings with so many neighbours in all are a few milliseconds of work: to wake
-/// other threads would cost more than they save.
-inline bool is_little_work(std::size_t neighbours, int passes) {
-  return static_cast<double>(neighbours) * passes < 4e6;
+/// other threads would cost more than they save. `effort` is that of a visit, 1 for a plain mean.
+inline bool is_little_work(std::size_t neighbours, int passes, double effort = 1) {
+  return static_cast<double>(neighbours) * passes * effort < 4e6;
 }
 
 /// What the vertices are called while passes go over them.
@@ -28,8 +27,9 @@ enum class Numbering {
 
 struct SweepLayout {
   Numbering numbering = Numbering::near;
-  std::uint32_t tile = 2048;                 ///< vertices that are taken together
+  unsigned tile_bits = 11;                   ///< 2^11 vertices are taken together
   std::size_t cache = std::size_t{8} << 20;  ///< bytes that stay in the processor's caches
+  double effort = 1;  ///< of a visit to a vertex, in visits of the plain mean
 };
 
 /// Rings of vertices that are taken together.
@@ -69,9 +69,10 @@ class RingTile {
 
 /// The one-rings of a mesh in the order in which passes go over them. A pass takes 2 to 3 ns a
 /// vertex where three things hold, and several times that where they do not:
-/// - What it reads is in the processor's caches. So vertices are numbered breadth first where the
-///   mesh's own order leads far away, and several passes go through memory as one wave
-///   (parallel_passes), each as close behind the one before as the rings allow.
+/// - What it reads is in the processor's caches. So several passes go through memory as one wave
+///   (parallel_passes), each as close behind the one before as the rings allow. Tiles come in
+///   breadth-first order where the mesh's own leads far away, and all vertices do where that does
+///   not help.
 /// - The processor can foretell how long the next ring is. So those of a tile are sorted by length.
 /// - Rings are read one behind the other.
 /// The neighbours in a ring keep the order that they have in the mesh, so that sums over them are
@@ -82,7 +83,7 @@ class RingSweep {
   [[nodiscard]] bool lay_out(const Context& context, Adjacency rings, int passes,
                              const SweepLayout& layout = {});
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return tiling_.vertices; }
   std::size_t longest_ring() const { return longest_; }
 
   /// The number in the mesh of the sweep's vertex v.
@@ -111,18 +112,15 @@ class RingSweep {
                          const std::function<void(int, const RingTile&)>& body) const;
 
  private:
-  std::size_t tiles() const { return (size_ + tile_ - 1) / tile_; }
-  IndexRange vertices(std::size_t tile) const {
-    return {tile * tile_, std::min(size_, (tile + 1) * tile_)};
-  }
-  std::size_t ring_items() const { return std::max(rings_.items().size(), items_.size()); }
-  double bytes_apart() const;
   double bytes_per_vertex() const;
-  void find_reach(const std::vector<std::size_t>& starts, std::span<const std::uint32_t> items);
-  [[nodiscard]] bool number_breadth_first(const Context& context);
+  double bytes_apart() const;
+  std::size_t ring_items() const { return std::max(rings_.items().size(), items_.size()); }
+  [[nodiscard]] bool number_anew(const Context& context, double cache, int passes);
   [[nodiscard]] bool sort_tiles(const Context& context);
 
-  std::size_t size_ = 0, tile_ = 1, longest_ = 0;
+  Tiling tiling_;
+  std::size_t longest_ = 0;
+  double effort_ = 1;
   int together_ = 1;                  ///< passes that make up one wave
   std::vector<std::uint32_t> needs_;  ///< per tile, for parallel_passes
   Adjacency rings_;                   ///< in the mesh's numbering, or none
