@@ -149,7 +149,8 @@ TEST(Architecture, HeadersAreGuarded) {
 
 TEST(Architecture, TestsMirrorTheModules) {
   std::set<std::string> expected = folders(kModules);
-  expected.insert({"app", "architecture", "conformance", "oracle", "package", "support"});
+  expected.insert(
+      {"allocation", "app", "architecture", "conformance", "oracle", "package", "support"});
   for (const std::string& folder : folders(kRoot / "tests")) {
     EXPECT_TRUE(expected.count(folder)) << "tests/" << folder << " mirrors no module";
   }

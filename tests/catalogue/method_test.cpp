@@ -52,7 +52,8 @@ TEST(Find, AnswersAnUnknownNameWithTheKnownOnes) {
 TEST(Catalogue, ListsEveryFamily) {
   std::size_t operations = 0;
   for (const auto family : families()) operations += operations_of(family).size();
-  EXPECT_EQ(operations, clean_operations().size() + merge_operations().size() +
+  EXPECT_EQ(operations, average_operations().size() + filter_operations().size() +
+                            clean_operations().size() + merge_operations().size() +
                             triangulate_operations().size() + repair_operations().size() +
                             smooth_operations().size());
   EXPECT_TRUE(operations_of("bake").empty());

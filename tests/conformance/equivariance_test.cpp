@@ -9,7 +9,20 @@
 namespace burnish::test {
 namespace {
 
+std::vector<Vec3f> points_of(const DepthFrame& frame) {
+  std::vector<Vec3f> points;
+  const std::size_t width = frame.camera.width;
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
+    if (!(frame.depth[i] > 0)) continue;
+    const Vec3d p = frame.camera.unproject(static_cast<double>(i % width),
+                                           static_cast<double>(i / width), frame.depth[i]);
+    points.push_back(Vec3f(frame.T_world_camera(p)));
+  }
+  return points;
+}
+
 std::vector<Vec3f> points_of(const Workpiece& workpiece) {
+  if (!workpiece.frames.empty()) return points_of(workpiece.frames.front());
   return workpiece.clouds.empty() ? workpiece.mesh.positions
                                   : without_missing(workpiece.clouds.front()).positions;
 }
@@ -41,9 +54,9 @@ class Equivariance : public Conformance {
     Settings settings;
     for (const FieldInfo& field : subject().info.fields) {
       if (field.type != "length") continue;
-      settings.emplace_back(field.key,
-                            quantity_text(factor * std::strtod(field.default_value.c_str(), nullptr),
-                                          Quantity::length));
+      settings.emplace_back(
+          field.key, quantity_text(factor * std::strtod(field.default_value.c_str(), nullptr),
+                                   Quantity::length));
     }
     return settings;
   }

@@ -29,8 +29,14 @@ class Safety : public Conformance {
     EXPECT_TRUE(bytes(broken) == before) << what << " changed the input";
   }
 
-  std::vector<Vec3f>& positions(Workpiece& workpiece) const {
-    return subject().takes_mesh() ? workpiece.mesh.positions : workpiece.clouds.back().positions;
+  void spoil(Workpiece& workpiece, std::size_t place, float bad) const {
+    if (subject().takes_frames()) {
+      workpiece.frames.back().depth[place] = bad;
+    } else if (subject().takes_mesh()) {
+      workpiece.mesh.positions[place].y = bad;
+    } else {
+      workpiece.clouds.back().positions[place].y = bad;
+    }
   }
   Attributes& attributes(Workpiece& workpiece) const {
     return subject().takes_mesh() ? workpiece.mesh.attributes : workpiece.clouds.back().attributes;
@@ -40,13 +46,21 @@ class Safety : public Conformance {
 TEST_P(Safety, RefusesPositionsThatAreNoNumbers) {
   for (const float bad : {kNaN, kInfinity, -kInfinity}) {
     Workpiece broken = unorganized(subject().sample);
-    positions(broken)[17].y = bad;
+    spoil(broken, 17, bad);
     expect_refusal("a position that is not finite", broken);
   }
 }
 
 TEST_P(Safety, RefusesAttributesOfAnotherLength) {
   Workpiece broken = subject().sample;
+  if (subject().takes_frames()) {
+    broken.frames.back().noise_share.pop_back();
+    expect_refusal("a noise share that is too short", broken);
+    broken = subject().sample;
+    broken.frames.back().observations.push_back(1);
+    expect_refusal("observations that are too long", broken);
+    return;
+  }
   attributes(broken).sigma.pop_back();
   expect_refusal("sigma that is too short", broken);
   broken = subject().sample;
@@ -62,6 +76,9 @@ TEST_P(Safety, RefusesWhatDoesNotHangTogether) {
   if (subject().takes_mesh()) {
     broken.mesh.triangles[5][1] = static_cast<std::uint32_t>(broken.mesh.positions.size());
     expect_refusal("an index out of range", broken);
+  } else if (subject().takes_frames()) {
+    broken.frames.back().camera.width += 1;
+    expect_refusal("a camera of another size", broken);
   } else {
     broken.clouds.back().grid->width += 1;
     expect_refusal("a grid of another size", broken);
@@ -72,6 +89,7 @@ TEST_P(Safety, SurvivesEmptyInput) {
   Workpiece nothing = subject().sample;
   nothing.mesh = {};
   for (PointCloud& cloud : nothing.clouds) cloud = {};
+  for (DepthFrame& frame : nothing.frames) frame = {};
   const auto outcome = subject().outcome_of(nothing);
   if (!outcome) {
     EXPECT_EQ(outcome.error().code, ErrorCode::bad_geometry) << outcome.error().text();
@@ -153,7 +171,13 @@ TEST_P(Safety, KeepsEveryAttributeAsLongAsTheVertices) {
     EXPECT_TRUE(check(cloud));
     expect_complete(cloud.positions, cloud.attributes);
   }
-  if (outcome.output.clouds.empty()) {
+  for (const DepthFrame& frame : outcome.output.frames) {
+    EXPECT_TRUE(check(frame));
+    EXPECT_EQ(frame.noise_share.size(), frame.depth.size());
+    EXPECT_EQ(frame.sigma_share.size(), frame.depth.size());
+    EXPECT_EQ(frame.observations.size(), frame.depth.size());
+  }
+  if (outcome.output.clouds.empty() && outcome.output.frames.empty()) {
     EXPECT_TRUE(check(outcome.output.mesh));
     EXPECT_FALSE(outcome.output.mesh.triangles.empty());
     expect_complete(outcome.output.mesh.positions, outcome.output.mesh.attributes);
@@ -203,7 +227,7 @@ TEST_P(Safety, PrintsNothing) {
   const auto good = subject().outcome({}, many_threads);
   const auto refused = subject().outcome({{"no_such_parameter", "1"}});
   Workpiece broken = unorganized(subject().sample);
-  positions(broken)[0].x = kNaN;
+  spoil(broken, 0, kNaN);
   const auto failed = subject().outcome_of(broken);
   EXPECT_EQ(capture.printed_bytes(), 0u);
   EXPECT_TRUE(good);

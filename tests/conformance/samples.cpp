@@ -146,9 +146,30 @@ TriangleMesh make_sample_mesh() {
   return mesh;
 }
 
+/// What the camera of a scan saw from the origin.
+DepthFrame frame_of(const PointCloud& cloud, std::uint64_t seed) {
+  DepthFrame frame;
+  frame.camera = {kWidth, kHeight, kFocalLength, kFocalLength, kWidth / 2.0, kHeight / 2.0};
+  frame.noise.c2 = 0.001;
+  Random random(seed);
+  for (const Vec3f& p : cloud.positions) {
+    frame.depth.push_back(is_finite(p) ? p.z : 0);
+    frame.noise_share.push_back(static_cast<float>(random.uniform(0.5, 1)));
+    frame.sigma_share.push_back(static_cast<float>(random.uniform(0.3, 0.5)));
+    frame.observations.push_back(1 + static_cast<std::uint32_t>(random.below(3)));
+  }
+  return frame;
+}
+
 }  // namespace
 
 // Made once: every test is a process of its own, and making them takes longer than most tests.
+const std::vector<DepthFrame>& sample_frames() {
+  static const std::vector<DepthFrame> frames{frame_of(scan({}, 1), 1), frame_of(scan({}, 2), 2),
+                                              frame_of(scan({}, 3), 3)};
+  return frames;
+}
+
 const std::vector<PointCloud>& sample_clouds() {
   static const std::vector<PointCloud> clouds{scan({0, 0, 0}, 1), scan({0.04, 0.01, -0.02}, 2),
                                               scan({-0.02, 0.03, 0.03}, 3)};

@@ -8,6 +8,32 @@
 namespace burnish::test {
 namespace {
 
+Subject subject_of(const AverageOperation& operation) {
+  return {"average",
+          operation.info,
+          {{}, {}, sample_frames()},
+          [&operation](Workpiece& input, const Settings& settings,
+                       const Context& context) -> Result<Outcome> {
+            auto created = operation.run(input.frames, settings, context);
+            if (!created) return created.error();
+            return Outcome{{{}, {}, {created->value}}, created->facts};
+          },
+          operation.resolve};
+}
+
+Subject subject_of(const FilterOperation& operation) {
+  return {"filter",
+          operation.info,
+          {{}, {}, {sample_frames().front()}},
+          [&operation](Workpiece& input, const Settings& settings,
+                       const Context& context) -> Result<Outcome> {
+            auto facts = operation.run(input.frames.front(), settings, context);
+            if (!facts) return facts.error();
+            return Outcome{input, *facts};
+          },
+          operation.resolve};
+}
+
 Subject subject_of(const CleanOperation& operation) {
   return {"clean",
           operation.info,
@@ -92,6 +118,8 @@ std::vector<std::string> other_texts(const FieldInfo& field) {
 const std::vector<Subject>& subjects() {
   static const std::vector<Subject> all = [] {
     std::vector<Subject> result;
+    for (const auto& operation : average_operations()) result.push_back(subject_of(operation));
+    for (const auto& operation : filter_operations()) result.push_back(subject_of(operation));
     for (const auto& operation : clean_operations()) result.push_back(subject_of(operation));
     for (const auto& operation : merge_operations()) result.push_back(subject_of(operation));
     for (const auto& operation : triangulate_operations()) result.push_back(subject_of(operation));

@@ -17,6 +17,7 @@ struct Subject {
   std::function<Result<Settings>(const Settings&)> resolve;
 
   std::string name() const { return family + "/" + info.name; }
+  bool takes_frames() const { return family == "average" || family == "filter"; }
   bool takes_mesh() const { return family == "smooth" || family == "repair"; }
 
   /// What comes of a copy of the sample.

@@ -32,6 +32,18 @@ void append(std::string& bytes, const Attributes& attributes) {
   }
 }
 
+void append(std::string& bytes, const DepthFrame& frame) {
+  append(bytes, frame.depth);
+  append(bytes, frame.noise_share);
+  append(bytes, frame.sigma_share);
+  append(bytes, frame.observations);
+  const Camera& camera = frame.camera;
+  append(bytes, std::vector{camera.width, camera.height});
+  append(bytes, std::vector{camera.fx, camera.fy, camera.cx, camera.cy, frame.time});
+  append(bytes, std::vector{frame.T_world_camera});
+  append(bytes, std::vector{frame.noise});
+}
+
 double diagonal(const std::vector<Vec3f>& points) {
   Vec3d low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -low;
   for (const Vec3f& p : points) {
@@ -102,6 +114,15 @@ std::string compare(const Attributes& expected, const Attributes& actual, double
                   compare("origin", expected.origin, actual.origin, 0));
 }
 
+std::string compare(const DepthFrame& expected, const DepthFrame& actual, double tolerance) {
+  const auto farthest = std::max_element(expected.depth.begin(), expected.depth.end());
+  const double length = expected.depth.empty() ? 0 : *farthest;
+  return first_of(compare("depth", expected.depth, actual.depth, length * tolerance),
+                  compare("noise share", expected.noise_share, actual.noise_share, tolerance),
+                  compare("sigma share", expected.sigma_share, actual.sigma_share, tolerance),
+                  compare("observations", expected.observations, actual.observations, 0));
+}
+
 std::string compare(const Facts& expected, const Facts& actual, double tolerance) {
   if (expected.size() != actual.size()) return "other facts";
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -122,6 +143,16 @@ void scale(std::vector<Vec3f>& points, Attributes& attributes, double factor) {
     noise.along = static_cast<float>(factor * noise.along);
     noise.across = static_cast<float>(factor * noise.across);
   }
+}
+
+void scale(DepthFrame& frame, double factor) {
+  for (float& depth : frame.depth) depth = static_cast<float>(factor * depth);
+  frame.T_world_camera.translation = frame.T_world_camera.translation * factor;
+  DepthNoise& noise = frame.noise;
+  for (double* length : {&noise.z0, &noise.c0, &noise.metres, &noise.min_depth, &noise.max_depth}) {
+    *length *= factor;
+  }
+  noise.c2 /= factor;
 }
 
 void rotate(std::vector<Vec3f>& points, Attributes& attributes, const RigidTransform& turn) {
@@ -202,6 +233,7 @@ std::string bytes(const Workpiece& workpiece) {
   append(result, workpiece.mesh.triangles);
   append(result, workpiece.mesh.attributes);
   append(result, std::vector{workpiece.mesh.frame.origin});
+  for (const DepthFrame& frame : workpiece.frames) append(result, frame);
   return result;
 }
 
@@ -232,6 +264,12 @@ std::string difference(const Outcome& expected, const Outcome& actual, const Tol
                  std::string(a.grid == b.grid ? "" : "another grid"));
     if (!found.empty()) return found;
   }
+  const auto& frames = expected.output.frames;
+  if (frames.size() != actual.output.frames.size()) return "another number of frames";
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    std::string found = compare(frames[i], actual.output.frames[i], tolerance.position);
+    if (!found.empty()) return found;
+  }
   const TriangleMesh &a = expected.output.mesh, &b = actual.output.mesh;
   const double length = diagonal(a.positions);
   return first_of(compare("position", a.positions, b.positions, length * tolerance.position),
@@ -249,6 +287,11 @@ std::string unordered_difference(const Outcome& expected, const Outcome& actual,
     std::string found = match(clouds[i].positions, actual.output.clouds[i].positions, reach);
     if (!found.empty()) return found;
   }
+  const auto& frames = expected.output.frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    std::string found = compare(frames[i], actual.output.frames[i], tolerance.position);
+    if (!found.empty()) return found;
+  }
   const auto a = soup(expected.output.mesh), b = soup(actual.output.mesh);
   std::vector<std::array<float, 9>> apart;
   std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(apart));
@@ -262,6 +305,7 @@ Workpiece scaled(Workpiece workpiece, double factor) {
     if (cloud.viewpoint) cloud.viewpoint = *cloud.viewpoint * factor;
   }
   scale(workpiece.mesh.positions, workpiece.mesh.attributes, factor);
+  for (DepthFrame& frame : workpiece.frames) scale(frame, factor);
   return workpiece;
 }
 
@@ -280,6 +324,7 @@ Workpiece rotated(Workpiece workpiece, const std::array<Vec3d, 3>& rows) {
     if (cloud.viewpoint) cloud.viewpoint = turn(*cloud.viewpoint);
   }
   rotate(workpiece.mesh.positions, workpiece.mesh.attributes, turn);
+  for (DepthFrame& frame : workpiece.frames) frame.T_world_camera = turn * frame.T_world_camera;
   return workpiece;
 }
 
@@ -294,6 +339,10 @@ Workpiece relabelled(const Workpiece& workpiece, std::uint64_t seed,
   Workpiece result = workpiece;
   for (PointCloud& cloud : result.clouds) {
     cloud = select(cloud, shuffled(cloud.positions.size(), random));
+  }
+  const auto frame_order = shuffled(workpiece.frames.size(), random);
+  for (std::size_t i = 0; i < frame_order.size(); ++i) {
+    result.frames[i] = workpiece.frames[frame_order[i]];
   }
   const auto old_index = shuffled(workpiece.mesh.positions.size(), random);
   std::vector<std::uint32_t> renamed(old_index.size());

@@ -6,15 +6,17 @@
 
 #include "burnish/base/facts.h"
 #include "burnish/base/rigid.h"
+#include "burnish/core/depth_frame.h"
 #include "burnish/core/point_cloud.h"
 #include "burnish/core/triangle_mesh.h"
 
 namespace burnish::test {
 
-/// Whatever an operation of any family takes or gives: clouds, or a mesh.
+/// Whatever an operation of any family takes or gives: clouds, a mesh, or frames.
 struct Workpiece {
   std::vector<PointCloud> clouds;
   TriangleMesh mesh;
+  std::vector<DepthFrame> frames{};
 };
 
 /// What came out of an operation.
@@ -55,7 +57,7 @@ Workpiece rotated(Workpiece workpiece, const std::array<Vec3d, 3>& rows);
 /// Clouds without grid and missing pixels; meshes stay.
 Workpiece unorganized(Workpiece workpiece);
 
-/// Points, vertices and triangles in another order, corners counted from another one.
+/// Frames, points, vertices and triangles in another order, corners counted from another one.
 /// `new_index[v]`, where it is asked for, is where the mesh's vertex v went.
 Workpiece relabelled(const Workpiece& workpiece, std::uint64_t seed,
                      std::vector<std::uint32_t>* new_index = nullptr);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <cmath>
 #include <numbers>
 
@@ -81,6 +83,16 @@ TEST(CheckFrame, NamesWhatIsWrong) {
   bad = frame();
   bad.depth[7] = -0.5f;
   EXPECT_EQ(refusal(bad), "depth of pixel 7 is -0.5");
+  bad = frame();
+  bad.noise_share.assign(11, 1.f);
+  EXPECT_EQ(refusal(bad), "11 noise shares for 4 x 3 pixels");
+  bad.noise_share.assign(12, 1.f);
+  bad.sigma_share.assign(12, 0.5f);
+  bad.sigma_share[3] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(refusal(bad), "sigma share of pixel 3 is nan");
+  bad = frame();
+  bad.observations.assign(13, 1);
+  EXPECT_EQ(refusal(bad), "13 observations for 4 x 3 pixels");
   bad = frame();
   bad.T_world_camera.rows[0].x = -1;
   EXPECT_EQ(refusal(bad), "the pose is not a rotation and a translation");

@@ -41,9 +41,26 @@ TEST(Recipe, ARegionToSmoothNeedsAMethod) {
   EXPECT_EQ(checked.error().code, ErrorCode::invalid_argument);
 }
 
+TEST(Recipe, ABoundAndAFilterOfFramesExcludeEachOther) {
+  Recipe recipe;
+  recipe.frames.filter = {{"bilateral_depth", {}}};
+  recipe.frames.average = Method{"temporal_mean", {}};
+  EXPECT_TRUE(check(recipe));
+  recipe.bound = NoiseBoundParams{};
+  const auto both = check(recipe);
+  ASSERT_FALSE(both);
+  EXPECT_NE(both.error().message.find("bilateral_depth moves depths"), std::string::npos);
+  recipe.frames.filter.clear();
+  EXPECT_TRUE(check(recipe));
+  recipe.frames.frames_at_once = 0;
+  EXPECT_FALSE(check(recipe));
+}
+
 TEST(Recipe, ChecksEveryStep) {
   const std::vector<Method> unknown{{"no_such_method", {}}};
   for (const auto& spoil : std::initializer_list<std::function<void(Recipe&)>>{
+           [&](Recipe& r) { r.frames.average = unknown[0]; },
+           [&](Recipe& r) { r.frames.filter = unknown; },
            [&](Recipe& r) { r.clean_scan = unknown; }, [&](Recipe& r) { r.merge = unknown[0]; },
            [&](Recipe& r) { r.clean_merged = unknown; },
            [&](Recipe& r) { r.triangulate = unknown[0]; }, [&](Recipe& r) { r.repair = unknown; },

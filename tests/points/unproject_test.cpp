@@ -79,6 +79,34 @@ TEST(Unproject, GivesSigmaByTheFormula) {
   EXPECT_GT(seen, 5000u);
 }
 
+TEST(Unproject, TakesWhatIsLeftOfTheNoiseFromTheFrame) {
+  DepthFrame frame = empty_frame();
+  fill(frame, plane({0, 0, 1}, 1));
+  const auto single = unproject(frame, {.window = 2});
+  frame.noise_share.assign(frame.depth.size(), 0.5f);
+  frame.observations.assign(frame.depth.size(), 4);
+  const auto mean = unproject(frame, {.window = 2});
+  frame.sigma_share.assign(frame.depth.size(), 0.25f);
+  const auto smoothed = unproject(frame, {.window = 2});
+  ASSERT_TRUE(single && mean && smoothed);
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
+    const PointNoise &one = single->attributes.noise[i], &four = mean->attributes.noise[i];
+    EXPECT_FLOAT_EQ(four.along, 0.5f * one.along);
+    EXPECT_EQ(four.across, one.across);
+    EXPECT_EQ(smoothed->attributes.noise[i], four);
+    EXPECT_EQ(mean->attributes.observations[i], 4u);
+    // Of sigma^2 = axial^2 cos^2 + lateral^2 sin^2 a share goes.
+    const double cosine =
+        std::cos(angle(Vec3d(single->positions[i]), Vec3d(-1.f * single->attributes.normals[i])));
+    const auto expected = [&](double share) {
+      const double all = single->attributes.sigma[i], axial = one.along * cosine;
+      return std::sqrt(all * all - (1 - share * share) * axial * axial);
+    };
+    EXPECT_NEAR(mean->attributes.sigma[i], expected(0.5), 1e-8);
+    EXPECT_NEAR(smoothed->attributes.sigma[i], expected(0.25), 1e-8);
+  }
+}
+
 TEST(Unproject, LeavesOutWhatIsNoMeasurement) {
   DepthFrame frame = empty_frame();
   fill(frame, plane({0, 0, 1}, 2));
@@ -98,6 +126,33 @@ TEST(Unproject, LeavesOutWhatIsNoMeasurement) {
   const auto near_only = unproject(frame, {.max_depth = 1});
   ASSERT_TRUE(near_only);
   EXPECT_FALSE(is_finite(near_only->positions[3]));
+}
+
+TEST(Unproject, WithoutNormalsIsTheSamePointsWithTheAxialDeviation) {
+  DepthFrame frame = empty_frame();
+  fill(frame, plane(normalized(Vec3d{0.6, 0.3, 1}), 1), 1);
+  frame.depth[77] = 0;
+  frame.T_world_camera = look_at({1, 2, 3}, {0, 0.5, 1}, {0, 0, 1});
+  frame.sigma_share.assign(frame.depth.size(), 0.5f);
+  const auto all = unproject(frame), bare = unproject(frame, {.normals = false});
+  ASSERT_TRUE(all && bare);
+  EXPECT_TRUE(bare->attributes.normals.empty() && bare->attributes.noise.empty());
+  EXPECT_EQ(bare->attributes.observations, all->attributes.observations);
+  EXPECT_EQ(bare->attributes.origin, all->attributes.origin);
+  PointCloud reused;
+  reused.positions.assign(5, {});
+  ASSERT_TRUE(unproject_into(frame, {}, {}, reused));
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
+    const bool missing = i == 77;
+    EXPECT_EQ(is_finite(bare->positions[i]), !missing);
+    if (!missing) {
+      EXPECT_EQ(bare->positions[i], all->positions[i]);
+      EXPECT_EQ(reused.positions[i], all->positions[i]);
+    }
+    const double sigma = missing ? 0 : 0.5 * frame.noise.axial(frame.depth[i], 0);
+    EXPECT_FLOAT_EQ(bare->attributes.sigma[i], static_cast<float>(sigma));
+  }
+  EXPECT_EQ(reused.attributes, bare->attributes);
 }
 
 TEST(Unproject, RefusesABrokenFrame) {

@@ -16,7 +16,8 @@ struct Options {
   std::string output, truth, crop, smooth_region, bound;
   ReportOutput report;
   FrameTexts frames;
-  std::vector<std::string> clean, merge, clean_merged, triangulate, repair, smooth;
+  int frames_at_once = FrameSteps{}.frames_at_once;
+  std::vector<std::string> average, filter, clean, merge, clean_merged, triangulate, repair, smooth;
 };
 
 const std::vector<std::string> kNone{"none"};
@@ -46,8 +47,10 @@ Result<Recipe> recipe_of(const Options& options) {
   const auto bound = bound_of(options.bound);
   if (!bound) return bound.error();
   recipe.bound = *bound;
-  std::vector<Method> merge{recipe.merge}, triangulate;
+  std::vector<Method> average, merge{recipe.merge}, triangulate;
   const std::pair<std::vector<Method>*, const std::vector<std::string>*> steps[] = {
+      {&average, &options.average},
+      {&recipe.frames.filter, &options.filter},
       {&recipe.clean_scan, &options.clean},
       {&merge, &options.merge},
       {&recipe.clean_merged, &options.clean_merged},
@@ -59,6 +62,8 @@ Result<Recipe> recipe_of(const Options& options) {
   }
   if (merge.empty()) return cannot_leave_out("--merge");
   if (options.triangulate == kNone) return cannot_leave_out("--triangulate");
+  if (!average.empty()) recipe.frames.average = average.back();
+  recipe.frames.frames_at_once = options.frames_at_once;
   recipe.merge = merge.back();
   if (!triangulate.empty()) recipe.triangulate = triangulate.back();
   return recipe;
@@ -111,6 +116,13 @@ Action add_reconstruct(CLI::App& app) {
   verb->add_option(
       "--crop", options->crop,
       "keep only what lies in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");
+  add_method(verb, "--average", options->average, "average",
+             "make one frame of those that follow each other from one place (equal poses, or none)")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  verb->add_option("--frames_at_once", options->frames_at_once,
+                   "at most so many frames become one with --average")
+      ->capture_default_str();
+  add_method(verb, "--filter", options->filter, "filter", "filter each depth frame");
   add_method(verb, "--clean", options->clean, "clean", "clean each organized scan; none: do not");
   add_method(verb, "--merge", options->merge, "merge", "merge several scans")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
@@ -135,7 +147,9 @@ Action add_reconstruct(CLI::App& app) {
       "Examples:\n"
       "  burnish reconstruct scan/ -o model.ply --report report.html\n"
       "  burnish reconstruct depth.png --sensor kinect_v1 -o person.ply --smooth "
-      "nearest_farthest:iterations=3");
+      "nearest_farthest:iterations=3\n"
+      "  burnish reconstruct still/ -o desk.ply --sensor primesense --average temporal_mean "
+      "--filter bilateral_depth");
   return [options](const Session& s, const Context& c) { return run(*options, s, c); };
 }
 

@@ -28,12 +28,14 @@ std::vector<OperationInfo> infos(std::span<const Op> list) {
 }  // namespace
 
 std::span<const std::string_view> families() {
-  static constexpr std::string_view kFamilies[] = {"clean", "merge", "triangulate", "repair",
-                                                   "smooth"};
+  static constexpr std::string_view kFamilies[] = {"average",     "filter", "clean", "merge",
+                                                   "triangulate", "repair", "smooth"};
   return kFamilies;
 }
 
 std::vector<OperationInfo> operations_of(std::string_view family) {
+  if (family == "average") return infos(average_operations());
+  if (family == "filter") return infos(filter_operations());
   if (family == "clean") return infos(clean_operations());
   if (family == "merge") return infos(merge_operations());
   if (family == "triangulate") return infos(triangulate_operations());
@@ -42,6 +44,12 @@ std::vector<OperationInfo> operations_of(std::string_view family) {
   return {};
 }
 
+Result<const AverageOperation*> find_average(std::string_view name) {
+  return find_in(average_operations(), "average", name);
+}
+Result<const FilterOperation*> find_filter(std::string_view name) {
+  return find_in(filter_operations(), "filter", name);
+}
 Result<const CleanOperation*> find_clean(std::string_view name) {
   return find_in(clean_operations(), "clean", name);
 }

@@ -9,6 +9,7 @@
 #include "burnish/base/context.h"
 #include "burnish/base/facts.h"
 #include "burnish/base/schema.h"
+#include "burnish/core/depth_frame.h"
 #include "burnish/core/point_cloud.h"
 #include "burnish/core/triangle_mesh.h"
 
@@ -38,6 +39,9 @@ struct Operation {
   std::function<Result<Settings>(const Settings&)> resolve;
 };
 
+using AverageOperation = Operation<Result<Created<DepthFrame>>(std::span<const DepthFrame>,
+                                                               const Settings&, const Context&)>;
+using FilterOperation = Operation<Result<Facts>(DepthFrame&, const Settings&, const Context&)>;
 using CleanOperation = Operation<Result<Facts>(PointCloud&, const Settings&, const Context&)>;
 using MergeOperation = Operation<Result<Created<PointCloud>>(std::span<const PointCloud>,
                                                              const Settings&, const Context&)>;

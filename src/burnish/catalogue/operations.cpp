@@ -4,13 +4,13 @@
 #include "burnish/points/remove_flying_pixels.h"
 #include "burnish/points/remove_outliers.h"
 #include "burnish/repair/small_components.h"
-#include "burnish/smoothing/bilateral.h"
-#include "burnish/smoothing/bilateral_normal.h"
 #include "burnish/smoothing/automatic.h"
-#include "burnish/smoothing/gaussian.h"
-#include "burnish/smoothing/guided_normal.h"
+#include "burnish/smoothing/bilateral.h"
+#include "burnish/smoothing/bilateral_depth.h"
+#include "burnish/smoothing/bilateral_normal.h"
 #include "burnish/smoothing/equalize.h"
 #include "burnish/smoothing/gaussian.h"
+#include "burnish/smoothing/guided_normal.h"
 #include "burnish/smoothing/humphrey.h"
 #include "burnish/smoothing/implicit.h"
 #include "burnish/smoothing/l0.h"
@@ -18,6 +18,7 @@
 #include "burnish/smoothing/nearest_farthest.h"
 #include "burnish/smoothing/one_ring_mean.h"
 #include "burnish/smoothing/taubin.h"
+#include "burnish/smoothing/temporal_mean.h"
 #include "burnish/smoothing/windowed_sinc.h"
 #include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/fan_cloud_mesh.h"
@@ -26,6 +27,23 @@
 
 // The list of everything that burnish can do. A new method is one line here.
 namespace burnish {
+
+std::span<const AverageOperation> average_operations() {
+  static const std::vector<AverageOperation> list{
+      creation_operation("temporal_mean", temporal_mean, &TemporalMean::frame,
+                         "The mean of frames from one place, without what moves through them.", ""),
+  };
+  return list;
+}
+
+std::span<const FilterOperation> filter_operations() {
+  static const std::vector<FilterOperation> list{
+      edit_operation("bilateral_depth", smooth_bilateral_depth,
+                     "Depths are averaged with near ones that the noise lets be of one surface.",
+                     "tomasi_manduchi_1998"),
+  };
+  return list;
+}
 
 std::span<const CleanOperation> clean_operations() {
   static const std::vector<CleanOperation> list{

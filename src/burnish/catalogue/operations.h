@@ -8,6 +8,8 @@
 namespace burnish {
 
 /// The operations that burnish offers, family by family, in the order in which they are listed.
+std::span<const AverageOperation> average_operations();
+std::span<const FilterOperation> filter_operations();
 std::span<const CleanOperation> clean_operations();
 std::span<const MergeOperation> merge_operations();
 std::span<const TriangulateOperation> triangulate_operations();
@@ -31,6 +33,8 @@ Result<Method> parse_method(std::string_view text);
 std::string to_string(const Method& method);
 
 /// The operation called `name`. Errors: invalid_argument that lists the names there are.
+Result<const AverageOperation*> find_average(std::string_view name);
+Result<const FilterOperation*> find_filter(std::string_view name);
 Result<const CleanOperation*> find_clean(std::string_view name);
 Result<const MergeOperation*> find_merge(std::string_view name);
 Result<const TriangulateOperation*> find_triangulate(std::string_view name);

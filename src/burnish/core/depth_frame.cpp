@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace burnish {
 namespace {
@@ -15,6 +18,29 @@ constexpr double kSteepest = 85 * std::numbers::pi / 180;
 double grazing_ratio(double theta) {
   const double angle = std::clamp(theta, 0.0, kSteepest);
   return angle / (std::numbers::pi / 2 - angle);
+}
+
+/// Whether something that is known of every pixel is there of as many as `camera` has.
+Result<void> check_count(std::string_view what, std::size_t count, const Camera& camera) {
+  if (count == std::size_t{camera.width} * camera.height) return {};
+  return Error{ErrorCode::bad_geometry,
+               fmt::format("{} {} for {} x {} pixels", count, what, camera.width, camera.height),
+               {}};
+}
+
+/// The same for numbers, none of which may be negative or not finite.
+Result<void> check_values(std::string_view what, const std::vector<float>& values,
+                          const Camera& camera) {
+  if (auto enough = check_count(std::string(what) + "s", values.size(), camera); !enough) {
+    return enough;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!(values[i] >= 0 && std::isfinite(values[i]))) {
+      return Error{
+          ErrorCode::bad_geometry, fmt::format("{} of pixel {} is {}", what, i, values[i]), {}};
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -47,19 +73,18 @@ double DepthNoise::lateral(double z, double theta, double fx) const {
 }
 
 Result<void> check(const DepthFrame& frame) {
-  if (auto camera = check(frame.camera); !camera) return camera;
-  const std::size_t pixels = std::size_t{frame.camera.width} * frame.camera.height;
-  if (frame.depth.size() != pixels) {
-    return Error{ErrorCode::bad_geometry,
-                 fmt::format("{} depths for {} x {} pixels", frame.depth.size(), frame.camera.width,
-                             frame.camera.height),
-                 {}};
+  if (auto camera = check(frame.camera); !camera) {
+    return Error{ErrorCode::bad_geometry, camera.error().message, {}};
   }
-  for (std::size_t i = 0; i < pixels; ++i) {
-    if (!(frame.depth[i] >= 0 && std::isfinite(frame.depth[i]))) {
-      return Error{
-          ErrorCode::bad_geometry, fmt::format("depth of pixel {} is {}", i, frame.depth[i]), {}};
-    }
+  if (auto sound = check_values("depth", frame.depth, frame.camera); !sound) return sound;
+  for (const auto& [what, shares] : {std::pair("noise share", &frame.noise_share),
+                                     std::pair("sigma share", &frame.sigma_share)}) {
+    if (shares->empty()) continue;
+    if (auto sound = check_values(what, *shares, frame.camera); !sound) return sound;
+  }
+  if (!frame.observations.empty()) {
+    auto enough = check_count("observations", frame.observations.size(), frame.camera);
+    if (!enough) return enough;
   }
   if (!(rotation_defect(frame.T_world_camera) < 1e-3) ||
       !is_finite(frame.T_world_camera.translation)) {

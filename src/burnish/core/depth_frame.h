@@ -49,19 +49,34 @@ struct DepthNoise {
   friend bool operator==(const DepthNoise&, const DepthNoise&) = default;
 };
 
-/// One image of a depth camera.
+/// One image of a depth camera, or what was made of one or several from one place.
 struct DepthFrame {
   Camera camera;
   std::vector<float> depth;  ///< width * height, row by row, along +z, m; 0 = none
   RigidTransform T_world_camera;
-  DepthNoise noise;
-  double time = 0;  ///< s
+  DepthNoise noise;  ///< of a single image as the camera gives it
+  double time = 0;   ///< s
+
+  // What is known of each pixel besides; each is as long as depth, or empty: 1 for all.
+  /// The axial deviation of its measurement, in shares of noise.axial: less for a mean of several.
+  std::vector<float> noise_share{};
+  /// The same of its depth as it is now: smoothing makes it less. Empty: noise_share's.
+  std::vector<float> sigma_share{};
+  std::vector<std::uint32_t> observations{};  ///< how many measurements it is the mean of
+
+  double noise_share_of(std::size_t pixel) const {
+    return noise_share.empty() ? 1 : double{noise_share[pixel]};
+  }
+  double sigma_share_of(std::size_t pixel) const {
+    return sigma_share.empty() ? noise_share_of(pixel) : double{sigma_share[pixel]};
+  }
 
   friend bool operator==(const DepthFrame&, const DepthFrame&) = default;
 };
 
-/// Whether the camera is sound, depth has a value for every pixel, none negative or not finite, and
-/// the pose is a rotation and a translation. Errors: bad_geometry.
+/// Whether the camera is sound, depth has a value for every pixel, as has what else is there of
+/// pixels, none negative or not finite, and the pose is a rotation and a translation. Errors:
+/// bad_geometry.
 Result<void> check(const DepthFrame& frame);
 
 }  // namespace burnish

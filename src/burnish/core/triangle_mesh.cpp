@@ -85,14 +85,21 @@ Vec3d area_vector(const TriangleMesh& mesh, std::size_t t) {
 }
 
 std::vector<Vec3f> vertex_normals(const TriangleMesh& mesh) {
-  std::vector<Vec3d> sums(mesh.positions.size());
+  std::vector<Vec3d> sums;
+  std::vector<Vec3f> normals;
+  vertex_normals_into(mesh, sums, normals);
+  return normals;
+}
+
+void vertex_normals_into(const TriangleMesh& mesh, std::vector<Vec3d>& sums,
+                         std::vector<Vec3f>& normals) {
+  sums.assign(mesh.positions.size(), {});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3d area = area_vector(mesh, t);
     for (const std::uint32_t v : mesh.triangles[t]) sums[v] += area;
   }
-  std::vector<Vec3f> normals(sums.size());
+  normals.resize(sums.size());
   for (std::size_t v = 0; v < sums.size(); ++v) normals[v] = Vec3f(normalized(sums[v]));
-  return normals;
 }
 
 }  // namespace burnish

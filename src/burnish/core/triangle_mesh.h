@@ -52,6 +52,10 @@ TriangleMesh without_unused_vertices(const TriangleMesh& mesh);
 /// Area-weighted vertex normals of unit length; 0 where a vertex has no triangle with an area.
 std::vector<Vec3f> vertex_normals(const TriangleMesh& mesh);
 
+/// The same where there is room for it; `sums` is worked with.
+void vertex_normals_into(const TriangleMesh& mesh, std::vector<Vec3d>& sums,
+                         std::vector<Vec3f>& normals);
+
 /// Twice the area times the unit normal of triangle `t`, in double.
 Vec3d area_vector(const TriangleMesh& mesh, std::size_t t);
 

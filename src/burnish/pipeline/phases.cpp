@@ -113,6 +113,23 @@ Result<void> certify(const TriangleMesh& before, const TriangleMesh& mesh, doubl
 
 }  // namespace
 
+Result<DepthFrame> average_frames(std::span<const DepthFrame> frames, const Method& method,
+                                  Record& record, const Context& context) {
+  auto mean = recorded(
+      "average", find_average(method.name), method, record, context,
+      [&](const AverageOperation& operation) {
+        return operation.run(frames, method.settings, context);
+      },
+      kFactsOfCreated);
+  if (!mean) return std::move(mean).error();
+  return std::move(mean->value);
+}
+
+Result<void> filter_frame(DepthFrame& frame, const std::vector<Method>& methods, Record& record,
+                          const Context& context) {
+  return edit("filter", frame, methods, find_filter, record, context);
+}
+
 Result<void> clean_cloud(PointCloud& cloud, const std::vector<Method>& methods, Record& record,
                          const Context& context) {
   return edit("clean", cloud, methods, find_clean, record, context);

@@ -12,6 +12,12 @@ namespace burnish {
 /// The steps of a run. Each runs methods of one family, and adds to the record what was done, with
 /// every parameter as it was used, what came of it and how long it took.
 
+Result<DepthFrame> average_frames(std::span<const DepthFrame> frames, const Method& method,
+                                  Record& record, const Context& context);
+
+Result<void> filter_frame(DepthFrame& frame, const std::vector<Method>& methods, Record& record,
+                          const Context& context);
+
 Result<void> clean_cloud(PointCloud& cloud, const std::vector<Method>& methods, Record& record,
                          const Context& context);
 

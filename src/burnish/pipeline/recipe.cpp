@@ -39,6 +39,24 @@ Result<void> check_smoothing(const std::vector<Method>& methods) {
 }
 
 Result<void> check(const Recipe& recipe) {
+  const FrameSteps& frames = recipe.frames;
+  if (frames.average) {
+    if (auto ok = check_methods({*frames.average}, find_average); !ok) return ok;
+  }
+  if (frames.frames_at_once < 1) {
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("{} frames are to be averaged at once, at least 1 is expected",
+                             frames.frames_at_once),
+                 {}};
+  }
+  if (auto ok = check_methods(frames.filter, find_filter); !ok) return ok;
+  if (recipe.bound && !frames.filter.empty()) {
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("a bound holds vertices to where they were measured, and {} moves "
+                             "depths before it could: leave out one of the two",
+                             frames.filter.front().name),
+                 {}};
+  }
   if (auto ok = check_methods(recipe.clean_scan, find_clean); !ok) return ok;
   if (auto ok = check_methods({recipe.merge}, find_merge); !ok) return ok;
   if (auto ok = check_methods(recipe.clean_merged, find_clean); !ok) return ok;

@@ -9,8 +9,16 @@
 
 namespace burnish {
 
+/// What is done to depth frames before they become points.
+struct FrameSteps {
+  std::optional<Method> average{};  ///< of frames from one place; none: each is a scan of its own
+  int frames_at_once = 30;          ///< at most so many become one, at least 1
+  std::vector<Method> filter{};     ///< each frame, averaged or not
+};
+
 /// Which method does each step of a reconstruction; an empty list leaves its step out.
 struct Recipe {
+  FrameSteps frames;           ///< depth frames, where the input is such
   std::optional<Region> crop;  ///< world coordinates; the rest is thrown away
   std::vector<Method> clean_scan{{"flying_pixels", {}}};  ///< each scan, where it is organized
   Method merge{"cells", {}};                              ///< several scans
@@ -28,8 +36,8 @@ inline constexpr const char* kNoiseBound = "noise";
 /// Reads "noise" or "noise:c=2". Errors: invalid_argument.
 Result<NoiseBoundParams> parse_bound(std::string_view text);
 
-/// Whether every method is known and its parameters can be, and smooth_region has something to
-/// confine. Errors: invalid_argument.
+/// Whether every method is known and its parameters can be, smooth_region has something to confine,
+/// and a bound is not to hold vertices to depths that a filter has moved. Errors: invalid_argument.
 Result<void> check(const Recipe& recipe);
 
 /// The same for a list of smoothing methods alone.

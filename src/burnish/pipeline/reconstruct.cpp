@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "burnish/io/geometry_file.h"
@@ -37,15 +39,45 @@ void crop(PointCloud& cloud, const Region& region) {
   cloud = select(cloud, kept);
 }
 
-/// The record's line for all scans together: facts of the single ones added up.
-void add_up(Step& total, const Step& step) {
-  if (total.method.empty()) {
-    total = step;
-    return;
+/// The record's lines for all scans together: facts of the single ones added up, or what their
+/// names say of them.
+class SummedSteps {
+ public:
+  void add(const std::vector<Step>& steps) {
+    if (totals_.empty()) {
+      totals_ = steps;
+    } else {
+      for (std::size_t k = 0; k < totals_.size(); ++k) add(totals_[k], steps[k]);
+    }
+    scans_ += 1;
   }
-  total.seconds += step.seconds;
-  for (std::size_t i = 0; i < total.facts.size(); ++i) total.facts[i].value += step.facts[i].value;
-}
+
+  void move_to(std::vector<Step>& steps) && {
+    for (Step& step : totals_) steps.push_back(std::move(step));
+  }
+
+ private:
+  void add(Step& total, const Step& step) const {
+    total.seconds += step.seconds;
+    for (std::size_t i = 0; i < total.facts.size(); ++i) {
+      double& sum = total.facts[i].value;
+      const double value = step.facts[i].value;
+      const std::string& key = total.facts[i].key;
+      if (key.starts_with("max_")) {
+        sum = std::max(sum, value);
+      } else if (key.starts_with("mean_")) {
+        sum = (scans_ * sum + value) / (scans_ + 1);
+      } else if (key.starts_with("rms_")) {
+        sum = std::sqrt((scans_ * sum * sum + value * value) / (scans_ + 1));
+      } else {
+        sum += value;
+      }
+    }
+  }
+
+  std::vector<Step> totals_;
+  double scans_ = 0;
+};
 
 /// Compares raw points and phases with the true surface, where there is one.
 class Judge {
@@ -100,7 +132,7 @@ Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& rec
                                            Record& record, const Context& context) {
   std::vector<PointCloud> clouds;
   Step reading{"read", "scans", {}, {}, 0, {}};
-  std::vector<Step> cleaning(recipe.clean_scan.size());
+  SummedSteps on_frames, cleaning;
   std::size_t points = 0;
   const double count = static_cast<double>(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
@@ -112,17 +144,22 @@ Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& rec
     if (!scan) return std::move(scan).error();
     record.notes.insert(record.notes.end(), scan->notes.begin(), scan->notes.end());
     PointCloud& cloud = scan->cloud;
-    if (recipe.crop) crop(cloud, *recipe.crop);
+    if (recipe.crop) {
+      crop(cloud, *recipe.crop);
+      if (scan->raw) crop(*scan->raw, *recipe.crop);
+    }
     points += count_points(cloud);
     reading.seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    judge.see_raw_points(cloud);
+    for (const Step& step : scan->steps) reading.seconds -= step.seconds;
+    on_frames.add(scan->steps);
+    judge.see_raw_points(scan->raw ? *scan->raw : cloud);
     if (cloud.grid) {
       Record single;
       if (auto clean = clean_cloud(cloud, recipe.clean_scan, single, share.part(0.5, 1)); !clean) {
         return clean.error();
       }
-      for (std::size_t k = 0; k < cleaning.size(); ++k) add_up(cleaning[k], single.steps[k]);
+      cleaning.add(single.steps);
     }
     clouds.push_back(std::move(cloud));
   }
@@ -134,9 +171,8 @@ Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& rec
   }
   reading.facts = {{"scans", count, ""}, {"points", static_cast<double>(points), ""}};
   record.steps.push_back(std::move(reading));
-  for (Step& step : cleaning) {
-    if (!step.method.empty()) record.steps.push_back(std::move(step));
-  }
+  std::move(on_frames).move_to(record.steps);
+  std::move(cleaning).move_to(record.steps);
   return clouds;
 }
 
@@ -161,7 +197,8 @@ Result<Reconstruction> reconstruct(const ScanInputs& inputs, const Recipe& recip
                                    const ReconstructOptions& options, Record record,
                                    const Context& context) {
   if (auto sound = check(recipe); !sound) return sound.error();
-  const Result<std::unique_ptr<Scans>> scans = open_scans(inputs);
+  const Result<std::unique_ptr<Scans>> scans =
+      open_scans(inputs, recipe.frames, options.truth.has_value());
   if (!scans) return scans.error();
   Result<Judge> judge = Judge::of(options.truth, context.part(0, 0.02));
   if (!judge) return std::move(judge).error();

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
+#include "burnish/base/parallel.h"
 #include "burnish/core/transform.h"
 #include "burnish/io/geometry_file.h"
+#include "burnish/pipeline/phases.h"
 #include "burnish/points/estimate_normals.h"
 #include "burnish/points/sensor_noise.h"
 #include "burnish/points/unproject.h"
@@ -19,29 +22,50 @@ namespace {
 namespace fs = std::filesystem;
 
 Error no_poses(std::size_t count) {
-  return {
-      ErrorCode::invalid_argument,
-      fmt::format("{} scans and no poses: give --poses FILE, a line `x y z qx qy qz qw` (camera to "
-                  "world) for each of them, or a Redwood trajectory.log or TUM trajectory",
-                  count),
-      {}};
+  return {ErrorCode::invalid_argument,
+          fmt::format(
+              "{} scans and no poses: give --poses FILE, a line `x y z qx qy qz qw` (camera to "
+              "world) for each of them, or a Redwood trajectory.log or TUM trajectory; or "
+              "--average temporal_mean where they are depth frames of a camera that stood still",
+              count),
+          {}};
 }
 
 /// Depth images, seen through their camera.
 class FrameScans : public Scans {
  public:
-  explicit FrameScans(FrameSequence frames) : frames_(std::move(frames)) {
+  FrameScans(FrameSequence frames, FrameSteps steps, bool keep_raw)
+      : frames_(std::move(frames)), steps_(std::move(steps)), keep_raw_(keep_raw) {
     notes_ = frames_.notes();
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      if (i == 0 || !belongs_to_last(i)) groups_.push_back({i, i});
+      ++groups_.back().end;
+    }
+    if (!steps_.average || frames_.size() == 1) return;
+    if (!frames_.has_poses()) {
+      notes_.push_back(fmt::format("{} frames without poses are averaged as seen from one place",
+                                   frames_.size()));
+    } else if (groups_.size() == frames_.size()) {
+      notes_.push_back("no two frames that follow each other have the same pose: none is averaged");
+    }
   }
 
-  std::size_t size() const override { return frames_.size(); }
+  std::size_t size() const override { return groups_.size(); }
 
   Result<Scan> read(std::size_t i, const Context& context) const override {
-    const Result<DepthFrame> frame = frames_.read(i);
-    if (!frame) return frame.error();
-    Result<PointCloud> cloud = unproject(*frame, {}, context);
+    Scan scan;
+    Result<DepthFrame> frame = read_frame(groups_[i], scan, context.part(0, 0.5));
+    if (!frame) return std::move(frame).error();
+    Record record;
+    if (auto filtered = filter_frame(*frame, steps_.filter, record, context.part(0.5, 0.7));
+        !filtered) {
+      return filtered.error();
+    }
+    std::move(record.steps.begin(), record.steps.end(), std::back_inserter(scan.steps));
+    Result<PointCloud> cloud = unproject(*frame, {}, context.part(0.7, 1));
     if (!cloud) return std::move(cloud).error();
-    return Scan{*std::move(cloud), {}};
+    scan.cloud = *std::move(cloud);
+    return scan;
   }
 
   Viewpoint viewpoint() const override {
@@ -50,7 +74,49 @@ class FrameScans : public Scans {
   }
 
  private:
+  /// Whether frame `i` is averaged with the group that ends before it.
+  bool belongs_to_last(std::size_t i) const {
+    const std::vector<FrameFile>& files = frames_.files();
+    const IndexRange& group = groups_.back();
+    return steps_.average && group.end - group.begin < std::size_t(steps_.frames_at_once) &&
+           files[i].T_world_camera == files[i - 1].T_world_camera;
+  }
+
+  /// One frame, or the mean of several. Adds raw points and steps to `scan`.
+  Result<DepthFrame> read_frame(const IndexRange& group, Scan& scan, const Context& context) const {
+    std::vector<DepthFrame> frames;
+    for (std::size_t i = group.begin; i < group.end; ++i) {
+      if (context.cancelled()) return cancelled();
+      Result<DepthFrame> frame = frames_.read(i);
+      if (!frame) return frame;
+      frames.push_back(*std::move(frame));
+    }
+    if (keep_raw_ && (steps_.average || !steps_.filter.empty())) {
+      if (auto kept = keep_raw(frames, scan); !kept) return kept.error();
+    }
+    if (!steps_.average) return std::move(frames.front());
+    Record record;
+    auto mean = average_frames(frames, *steps_.average, record, context);
+    scan.steps = std::move(record.steps);
+    return mean;
+  }
+
+  static Result<void> keep_raw(const std::vector<DepthFrame>& frames, Scan& scan) {
+    for (const DepthFrame& frame : frames) {
+      Result<PointCloud> points = unproject(frame, {.normals = false}, {});
+      if (!points) return std::move(points).error();
+      if (!scan.raw) scan.raw = PointCloud{{}, {}, {}, {}, points->frame};
+      for (const Vec3f& p : points->positions) {
+        if (is_finite(p)) scan.raw->positions.push_back(p);
+      }
+    }
+    return {};
+  }
+
   FrameSequence frames_;
+  FrameSteps steps_;
+  bool keep_raw_;
+  std::vector<IndexRange> groups_;  ///< the frames of each scan
 };
 
 /// Gives the points of an organized cloud the noise of the sensor, as unproject does for frames.
@@ -111,7 +177,12 @@ class CloudScans : public Scans {
   Sensor sensor_;
 };
 
-Result<std::unique_ptr<Scans>> open_clouds(const ScanInputs& inputs) {
+Result<std::unique_ptr<Scans>> open_clouds(const ScanInputs& inputs, const FrameSteps& steps) {
+  if (steps.average || !steps.filter.empty()) {
+    return Error{ErrorCode::invalid_argument,
+                 "averages and filters are of depth frames, these are clouds",
+                 inputs.paths.front().string()};
+  }
   if (inputs.frames.camera || inputs.frames.depth_scale) {
     return Error{ErrorCode::invalid_argument,
                  "a camera and a depth scale belong to depth frames, not to clouds",
@@ -137,11 +208,14 @@ Result<std::unique_ptr<Scans>> open_clouds(const ScanInputs& inputs) {
       std::make_unique<CloudScans>(inputs.paths, std::move(poses), *sensor));
 }
 
-Result<std::unique_ptr<Scans>> open_images(const ScanInputs& inputs) {
+Result<std::unique_ptr<Scans>> open_images(const ScanInputs& inputs, const FrameSteps& steps,
+                                           bool keep_raw) {
   Result<FrameSequence> frames = open_frames(inputs.paths, inputs.frames);
   if (!frames) return std::move(frames).error();
-  if (frames->size() > 1 && !frames->has_poses()) return no_poses(frames->size());
-  return std::unique_ptr<Scans>(std::make_unique<FrameScans>(*std::move(frames)));
+  if (frames->size() > 1 && !frames->has_poses() && !steps.average) {
+    return no_poses(frames->size());
+  }
+  return std::unique_ptr<Scans>(std::make_unique<FrameScans>(*std::move(frames), steps, keep_raw));
 }
 
 bool is_folder(const fs::path& path) {
@@ -192,7 +266,8 @@ bool is_image_or_folder(const fs::path& path) {
 
 }  // namespace
 
-Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& given) {
+Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& given, const FrameSteps& steps,
+                                          bool keep_raw) {
   if (given.paths.empty())
     return Error{ErrorCode::invalid_argument, "nothing to reconstruct from", {}};
   for (const fs::path& path : given.paths) {
@@ -211,7 +286,7 @@ Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& given) {
                    path.string()};
     }
   }
-  return images ? open_images(inputs) : open_clouds(inputs);
+  return images ? open_images(inputs, steps, keep_raw) : open_clouds(inputs, steps);
 }
 
 }  // namespace burnish

@@ -8,6 +8,7 @@
 
 #include "burnish/base/context.h"
 #include "burnish/core/point_cloud.h"
+#include "burnish/pipeline/recipe.h"
 #include "burnish/pipeline/record.h"
 #include "burnish/sensor/frame_sequence.h"
 
@@ -22,10 +23,12 @@ struct ScanInputs {
   FrameOptions frames;
 };
 
-/// Points in world coordinates, with normals, and what their reader left out or changed.
+/// Points in world coordinates, with normals, and how they came about.
 struct Scan {
   PointCloud cloud;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes;  ///< what their reader left out or changed
+  std::vector<Step> steps;         ///< what was done to the frames that they are from
+  std::optional<PointCloud> raw;   ///< positions as measured, where these steps may have moved them
 };
 
 /// One or more scans.
@@ -49,7 +52,13 @@ class Scans {
 /// Recognises what `inputs` are. A folder of PCD is read in natural order (9 before 10), and with
 /// the list of poses that lies in it where none is given, as folders of frames are. Errors:
 /// not_found; bad_file; invalid_argument where frames and clouds are mixed, where there are several
-/// scans and no poses, or as many as there are not.
-Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& inputs);
+/// scans and no poses, or as many as there are not, and where steps for frames meet clouds.
+///
+/// With steps.average a scan is the mean of up to frames_at_once frames that follow each other and
+/// have the same pose to the bit. Frames without poses are then from one place, with a note: a
+/// camera that stands still is what they are averaged for. No more frames than these are held at a
+/// time. `keep_raw`: scans of frames on which steps have worked bring their raw points, too.
+Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& inputs, const FrameSteps& steps = {},
+                                          bool keep_raw = false);
 
 }  // namespace burnish

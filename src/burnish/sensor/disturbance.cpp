@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "burnish/base/parallel.h"
+#include "burnish/core/noise_correlation.h"
 #include "burnish/sensor/image_noise.h"
 
 namespace burnish {

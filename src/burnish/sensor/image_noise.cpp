@@ -4,6 +4,7 @@
 
 #include "burnish/base/parallel.h"
 #include "burnish/base/random.h"
+#include "burnish/core/noise_correlation.h"
 
 namespace burnish {
 namespace {
@@ -14,12 +15,10 @@ struct Blur {
   int radius;  ///< px
   double decay;
 };
-constexpr Blur kFineBlur{3, 0.60653065971263342};     // s = 1 px
-constexpr Blur kPatchBlur{6, 0.88249690258459546};    // s = 2 px
-constexpr Blur kCoarseBlur{15, 0.98019867330675525};  // s = 5 px
-
-/// What is not white noise is fine and coarse noise, in these shares of the variance.
-constexpr double kFineShare = 0.46, kCoarseShare = 1 - kWhiteShare - kFineShare;
+constexpr Blur kFine{3, 0.60653065971263342};     // s = 1 px
+constexpr Blur kPatch{6, 0.88249690258459546};    // s = 2 px
+constexpr Blur kCoarse{15, 0.98019867330675525};  // s = 5 px
+static_assert(kFineBlur == 1 && kCoarseBlur == 5);
 
 constexpr std::size_t kRowsAtOnce = 8;
 
@@ -107,11 +106,11 @@ std::optional<ImageNoise> draw_image_noise(std::uint32_t width, std::uint32_t he
   Image white(width, height), fine(width, height), coarse(width, height);
   Image patches(width, height), shift_x(width, height), shift_y(width, height);
   if (!fill_white(white, seed, next++, quiet)) return std::nullopt;
-  const std::pair<Image*, const Blur*> blurred[] = {{&fine, &kFineBlur},
-                                                    {&coarse, &kCoarseBlur},
-                                                    {&patches, &kPatchBlur},
-                                                    {&shift_x, &kPatchBlur},
-                                                    {&shift_y, &kPatchBlur}};
+  const std::pair<Image*, const Blur*> blurred[] = {{&fine, &kFine},
+                                                    {&coarse, &kCoarse},
+                                                    {&patches, &kPatch},
+                                                    {&shift_x, &kPatch},
+                                                    {&shift_y, &kPatch}};
   for (const auto& [image, blur] : blurred) {
     if (!fill_blurred(*image, *blur, seed, next++, quiet)) return std::nullopt;
   }

@@ -11,17 +11,13 @@ namespace burnish {
 /// Random images of zero mean, one value per pixel, for the noise of a depth camera.
 struct ImageNoise {
   std::vector<float> white;   ///< variance 1, independent from pixel to pixel
-  std::vector<float> smooth;  ///< variance 1 - kWhiteShare, correlated between neighbours
+  std::vector<float> smooth;  ///< variance 1 - kWhiteShare, correlated between neighbours as
+                              ///< core/noise_correlation.h says
   // Variance 1, correlated over two pixels, independent of all others:
   std::vector<float> patches;
   std::vector<float> shift_x;
   std::vector<float> shift_y;
 };
-
-/// The share of the variance of Kinect noise that is white. sqrt(kWhiteShare) white + smooth has
-/// variance 1 and correlation .58, .38, .25, .20, .15 at 1, 2, 3, 4 and 6 pixels; a real frame
-/// with known truth (the Kinect Pyramid of the MeshTGV data) has .58, .37, .25, .21, .165.
-inline constexpr double kWhiteShare = 0.32;
 
 /// Draws the noise of one image. The value of a pixel depends on (seed, stream, width, height) and
 /// on where it is, not on the number of threads. None where the context was cancelled.

@@ -38,7 +38,10 @@ Result<VirtualCamera> VirtualCamera::create(const TriangleMesh& mesh, const Sens
 }
 
 VirtualCamera::VirtualCamera(const TriangleMesh& mesh, const Sensor& sensor, const Context& context)
-    : sensor_(sensor), origin_(mesh.frame.origin), normals_(unit_normals(mesh)), caster_(mesh, context) {}
+    : sensor_(sensor),
+      origin_(mesh.frame.origin),
+      normals_(unit_normals(mesh)),
+      caster_(mesh, context) {}
 
 Sight VirtualCamera::look(const RigidTransform& pose, std::uint32_t column,
                           std::uint32_t row) const {

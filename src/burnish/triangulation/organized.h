@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <numbers>
 
 #include "burnish/base/context.h"
 #include "burnish/base/schema.h"
+#include "burnish/core/grid_rings.h"
 #include "burnish/core/point_cloud.h"
 #include "burnish/triangulation/triangulation.h"
 
@@ -34,5 +36,32 @@ struct OrganizedParams {
 Result<Triangulation> triangulate_organized(const PointCloud& cloud,
                                             const OrganizedParams& params = {},
                                             const Context& context = {});
+
+/// The same for a camera that runs: keeps what it works with from one cloud to the next.
+class OrganizedTriangulator {
+ public:
+  OrganizedTriangulator();
+  ~OrganizedTriangulator();
+  OrganizedTriangulator(OrganizedTriangulator&&) noexcept;
+  OrganizedTriangulator& operator=(OrganizedTriangulator&&) noexcept;
+
+  /// Makes the positions, triangles and frame of `mesh` those of triangulate_organized(cloud,
+  /// params, context); its attributes stay. With one thread nothing is allocated where the
+  /// triangulator and the mesh have held a cloud of the same size before. Errors: those of
+  /// triangulate_organized; `mesh` is then of no meaning.
+  Result<void> triangulate(const PointCloud& cloud, const OrganizedParams& params,
+                           const Context& context, TriangleMesh& mesh);
+
+  /// Of the last mesh: the pixels that its vertices are, in their order.
+  const std::vector<std::uint32_t>& pixels() const;
+
+  /// Of the last mesh: the rings of its inner vertices. O(#pixels).
+  void find_rings(GridRings& rings) const;
+
+  class Workspace;  ///< not part of the interface
+
+ private:
+  std::unique_ptr<Workspace> workspace_;
+};
 
 }  // namespace burnish

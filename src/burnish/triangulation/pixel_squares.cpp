@@ -7,29 +7,30 @@
 
 namespace burnish {
 
-SquareJudge::Row::Row(std::size_t width)
-    : x(width), y(width), z(width), range(width), variance(width), to_next(width) {}
+void SquareJudge::Row::resize(std::size_t width) {
+  for (auto* values : {&x, &y, &z, &range, &variance}) values->resize(width);
+  to_next.resize(width);
+}
 
-SquareJudge::SquareJudge(const PointCloud& cloud, const OrganizedParams& params)
-    : cloud_(cloud),
-      viewpoint_(cloud.viewpoint.value_or(Vec3d{}) - cloud.frame.origin),
-      width_(cloud.grid->width),
-      squared_jump_(params.max_jump * params.max_jump),
-      squared_sine_(std::pow(std::sin(params.max_angle), 2)),
-      assumed_noise_(params.assumed_noise),
-      upper_(width_),
-      lower_(width_),
-      down_(width_),
-      falling_(width_),
-      rising_(width_),
-      falling_is_shorter_(width_),
-      difference_(width_) {}
+void SquareJudge::prepare(const PointCloud& cloud, const OrganizedParams& params) {
+  viewpoint_ = cloud.viewpoint.value_or(Vec3d{}) - cloud.frame.origin;
+  width_ = cloud.grid->width;
+  squared_jump_ = params.max_jump * params.max_jump;
+  squared_sine_ = std::pow(std::sin(params.max_angle), 2);
+  assumed_noise_ = params.assumed_noise;
+  upper_.resize(width_);
+  lower_.resize(width_);
+  for (auto* joined : {&down_, &falling_, &rising_, &falling_is_shorter_}) joined->resize(width_);
+  difference_.resize(width_);
+}
 
-void SquareJudge::judge(IndexRange rows, std::span<Square> squares) {
-  measure(rows.begin, lower_);
+void SquareJudge::judge(const PointCloud& cloud, const OrganizedParams& params, IndexRange rows,
+                        std::span<Square> squares) {
+  prepare(cloud, params);
+  measure(cloud, rows.begin, lower_);
   for (std::size_t number = rows.begin; number < rows.end; ++number) {
     std::swap(upper_, lower_);
-    measure(number + 1, lower_);
+    measure(cloud, number + 1, lower_);
     join(upper_, 0, lower_, 0, down_);
     join(upper_, 0, lower_, 1, falling_);
     join(upper_, 1, lower_, 0, rising_);
@@ -38,10 +39,10 @@ void SquareJudge::judge(IndexRange rows, std::span<Square> squares) {
   }
 }
 
-void SquareJudge::measure(std::size_t number, Row& row) {
+void SquareJudge::measure(const PointCloud& cloud, std::size_t number, Row& row) {
   const Vec3d viewpoint = viewpoint_;
-  const Vec3f* position = cloud_.positions.data() + number * width_;
-  const std::vector<float>& sigmas = cloud_.attributes.sigma;
+  const Vec3f* position = cloud.positions.data() + number * width_;
+  const std::vector<float>& sigmas = cloud.attributes.sigma;
   const float* sigma = sigmas.empty() ? nullptr : sigmas.data() + number * width_;
   double *x = row.x.data(), *y = row.y.data(), *z = row.z.data();
   double *range = row.range.data(), *variance = row.variance.data();
