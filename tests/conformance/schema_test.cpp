@@ -110,7 +110,7 @@ TEST(Exceptions, NameOperationsThatThereAre) {
 TEST(Names, AreUniqueInTheirFamily) {
   std::set<std::string> names;
   for (const Subject& subject : subjects())
-    EXPECT_TRUE(names.insert(subject.name()).second) << subject;
+    EXPECT_TRUE(names.insert(subject.name()).second) << subject.name();
 }
 
 BURNISH_FOR_EVERY_OPERATION(SchemaOf);

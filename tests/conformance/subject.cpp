@@ -132,6 +132,12 @@ const std::vector<Subject>& subjects() {
   return all;
 }
 
+std::vector<SubjectRef> subject_refs() {
+  std::vector<SubjectRef> refs;
+  for (const Subject& subject : subjects()) refs.push_back({&subject});
+  return refs;
+}
+
 std::vector<Settings> variations(const Subject& subject, const FieldInfo& field) {
   std::vector<Settings> result;
   for (std::string& text : other_texts(field)) {

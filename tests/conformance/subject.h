@@ -36,8 +36,14 @@ const std::vector<Subject>& subjects();
 /// The settings of one field that differ from its default and are allowed, the nearer ones first.
 std::vector<Settings> variations(const Subject& subject, const FieldInfo& field);
 
-inline std::ostream& operator<<(std::ostream& out, const Subject& subject) {
-  return out << subject.name();
+/// As the parameter of a test, of which there are many: a subject holds whole meshes.
+struct SubjectRef {
+  const Subject* subject;
+};
+std::vector<SubjectRef> subject_refs();
+
+inline std::ostream& operator<<(std::ostream& out, const SubjectRef& ref) {
+  return out << ref.subject->name();
 }
 
 }  // namespace burnish::test

@@ -8,9 +8,9 @@
 namespace burnish::test {
 
 /// One test for every operation of the catalogue.
-class Conformance : public testing::TestWithParam<Subject> {
+class Conformance : public testing::TestWithParam<SubjectRef> {
  protected:
-  const Subject& subject() const { return GetParam(); }
+  const Subject& subject() const { return *GetParam().subject; }
 
   /// What becomes of the sample; the test ends where that is an error.
   Outcome expected(const Settings& settings = {}, const Context& context = {}) const {
@@ -30,12 +30,12 @@ class Conformance : public testing::TestWithParam<Subject> {
   }
 };
 
-inline std::string test_name(const testing::TestParamInfo<Subject>& info) {
-  return info.param.family + "_" + info.param.info.name;
+inline std::string test_name(const testing::TestParamInfo<SubjectRef>& info) {
+  return info.param.subject->family + "_" + info.param.subject->info.name;
 }
 
 }  // namespace burnish::test
 
-#define BURNISH_FOR_EVERY_OPERATION(suite)                                                 \
-  INSTANTIATE_TEST_SUITE_P(Catalogue, suite, testing::ValuesIn(burnish::test::subjects()), \
+#define BURNISH_FOR_EVERY_OPERATION(suite)                                                     \
+  INSTANTIATE_TEST_SUITE_P(Catalogue, suite, testing::ValuesIn(burnish::test::subject_refs()), \
                            burnish::test::test_name)

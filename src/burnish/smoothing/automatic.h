@@ -26,9 +26,10 @@ struct AutoParams {
 /// Was trained on noise of 0.03 to 0.8 mean edge lengths (cameras: 0.12 to 1.4), on triangles of
 /// nearly equal size; what it does beyond that is not known. A sphere, torus or box without noise
 /// moves by less than 0.01 mean edge lengths (RMS). Equivariant to movements, mirroring and scale
-/// up to rounding. Normals that are there are computed anew; sigma stays, which is on the safe
-/// side; all else stays. On error or cancellation `mesh` is unchanged. O(#T). Errors:
-/// invalid_argument, bad_geometry, cancelled.
+/// up to rounding, which also decides on which side a face is seen whose surroundings lean to
+/// neither. Normals that are there are computed anew; sigma stays, which is on the safe side; all
+/// else stays. On error or cancellation `mesh` is unchanged. O(#T).
+/// Errors: invalid_argument, bad_geometry, cancelled.
 Result<SmoothingReport> smooth_auto(TriangleMesh& mesh, const AutoParams& params = {},
                                     const Context& context = {});
 
