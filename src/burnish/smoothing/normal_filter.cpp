@@ -9,19 +9,28 @@
 namespace burnish {
 namespace {
 
-/// Calls `visit(begin, squares)` for every four entries of a row: of these, from `begin` on, the
-/// squared distances between `points` and `centre`. After the row's end its last entry repeats.
-template <class Visit>
+/// Squared distances between `centre` and four points.
+Quad squared_distances(const Quad& centre, const Quad& a, const Quad& b, const Quad& c,
+                       const Quad& d) {
+  const Quad to_a = a - centre, to_b = b - centre, to_c = c - centre, to_d = d - centre;
+  return sums3(to_a * to_a, to_b * to_b, to_c * to_c, to_d * to_d);
+}
+
+/// Calls `four(k, squares)` for every four entries of a row, with the squared distances between
+/// their points and `centre`, and `rest(k, squares)` for those that are left.
+template <class Four, class Rest>
 void for_squared_distances(std::span<const std::uint32_t> row, std::span<const Quad> points,
-                           const Quad& centre, Visit visit) {
-  const std::size_t last = row.empty() ? 0 : row.size() - 1;
-  for (std::size_t k = 0; k < row.size(); k += 4) {
-    const auto apart = [&](std::size_t i) {
-      const Quad difference = points[row[std::min(k + i, last)]] - centre;
-      return difference * difference;
-    };
-    visit(k, sums3(apart(0), apart(1), apart(2), apart(3)));
+                           const Quad& centre, Four four, Rest rest) {
+  std::size_t k = 0;
+  for (; k + 4 <= row.size(); k += 4) {
+    four(k, squared_distances(centre, points[row[k]], points[row[k + 1]], points[row[k + 2]],
+                              points[row[k + 3]]));
   }
+  if (k == row.size()) return;
+  const std::size_t last = row.size() - 1;
+  const Quad squares = squared_distances(centre, points[row[k]], points[row[std::min(k + 1, last)]],
+                                         points[row[std::min(k + 2, last)]], Quad());
+  rest(k, squares);
 }
 
 /// Of the unit length of `sum`, with the area of `normal`; `normal` where it has no direction.
@@ -42,14 +51,14 @@ bool near_weights(const Context& context, const Adjacency& neighbours, const Fac
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const auto row = neighbours.row(i);
       float* const out = weights.data() + neighbours.offsets()[i];
-      for_squared_distances(row, faces.centroids, faces.centroids[i],
-                            [&](std::size_t k, const Quad& squares) {
-                              const Quad near = exp_of_negative(scale * squares);
-                              const std::size_t end = std::min(k + 4, row.size());
-                              for (std::size_t j = k; j < end; ++j) {
-                                out[j] = faces.normals[row[j]].w() * near[static_cast<int>(j - k)];
-                              }
-                            });
+      const auto put = [&](std::size_t k, const Quad& squares) {
+        const Quad near = exp_of_negative(scale * squares);
+        const std::size_t end = std::min(k + 4, row.size());
+        for (std::size_t j = k; j < end; ++j) {
+          out[j] = faces.normals[row[j]].w() * near[static_cast<int>(j - k)];
+        }
+      };
+      for_squared_distances(row, faces.centroids, faces.centroids[i], put, put);
     }
   });
 }
@@ -64,16 +73,23 @@ bool filter_normals(const Context& context, const Adjacency& neighbours,
       const auto row = neighbours.row(i);
       const float* const near = weights.data() + neighbours.offsets()[i];
       Quad sum;
+      const auto add_four = [&](std::size_t k, const Quad& squares) {
+        const Quad share = Quad::load(near + k) * exp_of_negative(scale * squares);
+        sum += splat<0>(share) * normals[row[k]];
+        sum += splat<1>(share) * normals[row[k + 1]];
+        sum += splat<2>(share) * normals[row[k + 2]];
+        sum += splat<3>(share) * normals[row[k + 3]];
+      };
+      const auto add_rest = [&](std::size_t k, const Quad& squares) {
+        const Quad alike = exp_of_negative(scale * squares);
+        for (int lane = 0; k < row.size(); ++k, ++lane) {
+          sum += (near[k] * alike[lane]) * normals[row[k]];
+        }
+      };
       if (guidance.empty()) {
         for (std::size_t k = 0; k < row.size(); ++k) sum += near[k] * normals[row[k]];
       } else {
-        for_squared_distances(row, guidance, guidance[i], [&](std::size_t k, const Quad& squares) {
-          const Quad alike = exp_of_negative(scale * squares);
-          const std::size_t end = std::min(k + 4, row.size());
-          for (std::size_t j = k; j < end; ++j) {
-            sum += (near[j] * alike[static_cast<int>(j - k)]) * normals[row[j]];
-          }
-        });
+        for_squared_distances(row, guidance, guidance[i], add_four, add_rest);
       }
       filtered[i] = unit_normal(sum, normals[i]);
     }
