@@ -31,5 +31,9 @@ function(burnish_module name)
   list(TRANSFORM ARG_USES PREPEND burnish::)
   target_link_libraries(burnish_${name} PUBLIC ${ARG_USES} ${ARG_PUBLIC}
                         PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:burnish_flags>)
+  if(BURNISH_PRECOMPILE)
+    target_precompile_headers(burnish_${name} PRIVATE <algorithm> <array> <cmath> <functional> <memory>
+                              <optional> <span> <string> <string_view> <variant> <vector>)
+  endif()
   set_property(GLOBAL APPEND PROPERTY BURNISH_MODULES ${name})
 endfunction()
