@@ -25,7 +25,8 @@ DepthFrame frame_with(double missing, std::uint64_t seed) {
 
 TEST(Allocations, AreCounted) {
   const std::size_t before = test::allocations();
-  const std::vector<int> numbers(10);
+  // Called by name: what new and vectors ask for a compiler may leave out.
+  ::operator delete(::operator new(40));
   EXPECT_EQ(test::allocations(), before + 1);
 }
 

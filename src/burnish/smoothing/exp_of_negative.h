@@ -12,7 +12,7 @@ namespace burnish {
 /// exp(-x) of four numbers at once, x >= 0, to (3 + x) 1e-7 of the value; 0 from x = 87 on. The
 /// same bits on every machine, which the standard library's need not be.
 inline Quad exp_of_negative(const Quad& x) {
-  typedef std::int32_t Whole __attribute__((vector_size(16)));
+  typedef std::uint32_t Whole __attribute__((vector_size(16)));
   constexpr float kLog2E = 1.44269504f;
   // Added and taken away again, it rounds to whole numbers; its last bits then hold that number.
   constexpr float kRounder = 12582912.f;  // 1.5 * 2^23
@@ -27,7 +27,7 @@ inline Quad exp_of_negative(const Quad& x) {
   }
   const Whole exponent =
       (std::bit_cast<Whole>(shifted.lanes) << 23) + std::bit_cast<Whole>(sum.lanes);
-  const Whole within = x.lanes < Quad(87.f).lanes;
+  const auto within = std::bit_cast<Whole>(x.lanes < Quad(87.f).lanes);
   return Quad(std::bit_cast<Quad::Lanes>(exponent & within));
 }
 
