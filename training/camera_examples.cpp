@@ -110,11 +110,6 @@ View look_at(const Solid& solid, const Vec3d& direction, const RayNoise& noise, 
   return view;
 }
 
-Vec3d random_direction(Random& random) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return normalized(Vec3d{x, y, z});
-}
-
 /// One picture, its pixels joined where there is no jump between them.
 Example one_view(const Solid& solid, Random& random) {
   const RayNoise noise = random_noise(random);

@@ -11,14 +11,15 @@
 #include "burnish/triangulation/global.h"
 
 namespace burnish::training {
-namespace {
-
-constexpr double kNoCrease = 1e9;
 
 Vec3d random_direction(Random& random) {
   const double x = random.normal(), y = random.normal(), z = random.normal();
   return normalized(Vec3d{x, y, z});
 }
+
+namespace {
+
+constexpr double kNoCrease = 1e9;
 
 Vec3d random_point(Random& random, double reach) {
   const double x = random.uniform(-reach, reach), y = random.uniform(-reach, reach);

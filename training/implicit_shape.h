@@ -21,6 +21,9 @@ class Solid {
 };
 using SolidPtr = std::shared_ptr<const Solid>;
 
+/// Of unit length.
+Vec3d random_direction(Random& random);
+
 /// A solid of planes, spheres, cylinders, cones and tori, joined, cut and blended at random, within
 /// about the unit ball.
 SolidPtr random_solid(Random& random);

@@ -7,15 +7,12 @@
 #include <vector>
 
 #include "support/progress.h"
+#include "support/threads.h"
 
 namespace burnish {
 namespace {
 
-Context with_threads(int threads) {
-  Context context;
-  context.threads = threads;
-  return context;
-}
+using test::with_threads;
 
 /// Every chunk needs some that follow it, by turns more and fewer.
 std::vector<std::uint32_t> some_needs(std::uint32_t chunks) {

@@ -10,15 +10,12 @@
 
 #include "burnish/base/random.h"
 #include "support/progress.h"
+#include "support/threads.h"
 
 namespace burnish {
 namespace {
 
-Context with_threads(int threads) {
-  Context context;
-  context.threads = threads;
-  return context;
-}
+using test::with_threads;
 
 TEST(ParallelFor, CoversEveryIndexOnce) {
   for (const int threads : {1, 2, 3, 8}) {

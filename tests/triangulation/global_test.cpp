@@ -17,9 +17,12 @@
 #include "burnish/triangulation/local_fans.h"
 #include "burnish/triangulation/triangle_gap.h"
 #include "support/test_data.h"
+#include "support/threads.h"
 
 namespace burnish {
 namespace {
+
+using test::with_threads;
 
 Vec3d random_offset(Random& random, double size) {
   const double x = random.normal(), y = random.normal(), z = random.normal();
@@ -65,12 +68,6 @@ PointCloud plane(int width, int height, float spacing) {
     }
   }
   return cloud;
-}
-
-Context with_threads(int threads) {
-  Context context;
-  context.threads = threads;
-  return context;
 }
 
 void expect_oriented_manifold(const TriangleMesh& mesh) {

@@ -7,9 +7,12 @@
 
 #include "burnish/base/random.h"
 #include "burnish/core/topology.h"
+#include "support/threads.h"
 
 namespace burnish {
 namespace {
+
+using test::with_threads;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr double kPixel = 1.0 / 585;  ///< Kinect v1's angle between two pixels, rad
@@ -29,12 +32,6 @@ PointCloud image(std::uint32_t width, std::uint32_t height, float sigma, Depth d
     }
   }
   return cloud;
-}
-
-Context with_threads(int threads) {
-  Context context;
-  context.threads = threads;
-  return context;
 }
 
 TEST(TriangulateOrganized, GivesTwoTrianglesForEachSquareOfAPlane) {

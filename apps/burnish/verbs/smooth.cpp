@@ -13,11 +13,12 @@ namespace {
 struct Options {
   std::string input, output, region, bound;
   ReportOutput report;
-  std::vector<std::string> methods{"auto"};
+  std::vector<std::string> methods;
 };
 
 Result<void> smooth(const Options& options, const Session& session, const Context& context) {
-  const Result<std::vector<Method>> methods = parse_methods(options.methods);
+  const Result<std::vector<Method>> methods =
+      options.methods.empty() ? Recipe().smooth : parse_methods(options.methods);
   if (!methods) return methods.error();
   if (auto known = check_smoothing(*methods); !known) return known;
   const Result<std::optional<Region>> region = parse_region_option(options.region, "--region");

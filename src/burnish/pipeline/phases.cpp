@@ -70,6 +70,18 @@ Result<void> edit(std::string_view verb, T& edited, const std::vector<Method>& m
       [](std::size_t) { return Result<void>(); });
 }
 
+/// Runs a method that makes something of `input`.
+template <class Op, class T>
+auto create(std::string_view verb, const Result<const Op*>& operation, const T& input,
+            const Method& method, Record& record, const Context& context) {
+  const auto run = [&](const Op& op) { return op.run(input, method.settings, context); };
+  auto created = recorded(verb, operation, method, record, context, run,
+                          [](const auto& made) { return made.facts; });
+  using Made = decltype(created->value);
+  return created ? Result<Made>(std::move(created->value))
+                 : Result<Made>(std::move(created).error());
+}
+
 /// The record's line on a region to smooth.
 Step confining(const Region& region, const std::vector<float>& weights) {
   const auto free =
@@ -81,8 +93,6 @@ Step confining(const Region& region, const std::vector<float>& weights) {
           0,
           {{"region", "region", "", "", "", "where vertices are free to move"}}};
 }
-
-constexpr auto kFactsOfCreated = [](const auto& created) { return created.facts; };
 
 Error in_bound(Error error) {
   return in_step("bound", {kNoiseBound, {}}, std::move(error));
@@ -115,14 +125,7 @@ Result<void> certify(const TriangleMesh& before, const TriangleMesh& mesh, doubl
 
 Result<DepthFrame> average_frames(std::span<const DepthFrame> frames, const Method& method,
                                   Record& record, const Context& context) {
-  auto mean = recorded(
-      "average", find_average(method.name), method, record, context,
-      [&](const AverageOperation& operation) {
-        return operation.run(frames, method.settings, context);
-      },
-      kFactsOfCreated);
-  if (!mean) return std::move(mean).error();
-  return std::move(mean->value);
+  return create("average", find_average(method.name), frames, method, record, context);
 }
 
 Result<void> filter_frame(DepthFrame& frame, const std::vector<Method>& methods, Record& record,
@@ -137,32 +140,19 @@ Result<void> clean_cloud(PointCloud& cloud, const std::vector<Method>& methods, 
 
 Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method& method,
                                 Record& record, const Context& context) {
-  auto merged = recorded(
-      "merge", find_merge(method.name), method, record, context,
-      [&](const MergeOperation& operation) {
-        return operation.run(clouds, method.settings, context);
-      },
-      kFactsOfCreated);
-  if (!merged) return std::move(merged).error();
-  return std::move(merged->value);
+  return create("merge", find_merge(method.name), clouds, method, record, context);
 }
 
 Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& method,
                                        Record& record, const Context& context) {
-  auto mesh = recorded(
-      "triangulate", find_triangulate(method.name), method, record, context,
-      [&](const TriangulateOperation& operation) {
-        return operation.run(cloud, method.settings, context);
-      },
-      kFactsOfCreated);
-  if (!mesh) return std::move(mesh).error();
-  if (mesh->value.triangles.empty()) {
+  auto mesh = create("triangulate", find_triangulate(method.name), cloud, method, record, context);
+  if (mesh && mesh->triangles.empty()) {
     return in_step("triangulate", method,
                    {ErrorCode::bad_geometry,
                     fmt::format("no triangle came of {} points", cloud.positions.size()),
                     {}});
   }
-  return std::move(mesh->value);
+  return mesh;
 }
 
 Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods, Record& record,
