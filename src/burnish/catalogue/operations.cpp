@@ -1,5 +1,6 @@
 #include "burnish/catalogue/operations.h"
 
+#include "burnish/adaptation/midpoint.h"
 #include "burnish/points/merge_cells.h"
 #include "burnish/points/remove_flying_pixels.h"
 #include "burnish/points/remove_outliers.h"
@@ -134,6 +135,14 @@ std::span<const SmoothOperation> smooth_operations() {
                      "he_schaefer_2013"),
       edit_operation("equalize", smooth_equalize,
                      "Evens the distances to neighbours within the surface; smooths nothing.", ""),
+  };
+  return list;
+}
+
+std::span<const RefineOperation> refine_operations() {
+  static const std::vector<RefineOperation> list{
+      edit_operation("midpoint", refine_midpoint,
+                     "Every triangle becomes four by the middles of its edges; nothing moves.", ""),
   };
   return list;
 }
