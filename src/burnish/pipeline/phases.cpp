@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <chrono>
 
+#include "burnish/adaptation/refinement.h"
 #include "burnish/base/version.h"
 #include "burnish/pipeline/confinement.h"
 #include "burnish/pipeline/recipe.h"
+#include "burnish/smoothing/smoothing_weights.h"
 
 namespace burnish {
 namespace {
@@ -82,16 +84,21 @@ auto create(std::string_view verb, const Result<const Op*>& operation, const T& 
                  : Result<Made>(std::move(created).error());
 }
 
-/// The record's line on a region to smooth.
-Step confining(const Region& region, const std::vector<float>& weights) {
+/// The record's line on a region that an operation is confined to.
+Step confining(const Region& region, const std::vector<float>& weights, const char* vertices,
+               const char* help) {
   const auto free =
       weights.size() - static_cast<std::size_t>(std::count(weights.begin(), weights.end(), 0.0f));
   return {"confine",
           "region",
           {{"region", to_string(region)}},
-          {{"free_vertices", static_cast<double>(free), ""}},
+          {{vertices, static_cast<double>(free), ""}},
           0,
-          {{"region", "region", "", "", "", "where vertices are free to move"}}};
+          {{"region", "region", "", "", "", help}}};
+}
+
+void keep_phase(bool wanted, std::string name, const TriangleMesh& mesh, Record& record) {
+  if (wanted) record.phases.push_back({std::move(name), mesh, {}});
 }
 
 Error in_bound(Error error) {
@@ -165,24 +172,24 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
                               const Context& context) {
   std::vector<float> weights;
   if (limits.region) {
-    Result<std::vector<float>> inside = weights_inside(mesh, *limits.region);
-    if (!inside) return std::move(inside).error();
-    weights = *std::move(inside);
-    record.steps.push_back(confining(*limits.region, weights));
+    const Result<std::vector<bool>> inside = vertices_inside(mesh, *limits.region);
+    if (!inside) return inside.error();
+    Result<std::vector<float>> confined = confined_weights(mesh, kSmoothingWeight, *inside);
+    if (!confined) return std::move(confined).error();
+    weights = *std::move(confined);
+    record.steps.push_back(
+        confining(*limits.region, weights, "free_vertices", "where vertices are free to move"));
   }
   TriangleMesh before;
   if (limits.bound) {
     if (auto known = check_noise(mesh); !known) return in_bound(known.error());
     before = mesh;
   }
-  const auto keep_phase = [&](std::string name) {
-    if (keep_phases) record.phases.push_back({std::move(name), mesh, {}});
-  };
-  keep_phase("original");
+  keep_phase(keep_phases, "original", mesh, record);
   const auto smooth = [&](const SmoothOperation& operation, const Settings& settings,
                           const Context& share) {
     if (!limits.region) return operation.run(mesh, settings, share);
-    const TemporaryWeights confined(mesh, weights);
+    const TemporaryWeights confined(mesh, kSmoothingWeight, weights);
     return operation.run(mesh, settings, share);
   };
   Context silent = context;
@@ -191,7 +198,7 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
     if (limits.bound) {
       if (auto done = put_back(before, mesh, *limits.bound, record, silent); !done) return done;
     }
-    keep_phase(fmt::format("phase {}", i + 1));
+    keep_phase(keep_phases, fmt::format("phase {}", i + 1), mesh, record);
     return {};
   };
   if (auto done = run_all("smooth", methods, find_smooth, record, context, smooth, after_phase);
@@ -199,6 +206,29 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
     return done;
   }
   return limits.bound ? certify(before, mesh, limits.bound->c, record) : Result<void>();
+}
+
+Result<void> refine_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                              const std::optional<Region>& region, bool keep_phases, Record& record,
+                              const Context& context) {
+  keep_phase(keep_phases, "original", mesh, record);
+  const auto refine = [&](const RefineOperation& operation, const Settings& settings,
+                          const Context& share) -> Result<Facts> {
+    if (!region) return operation.run(mesh, settings, share);
+    const Result<std::vector<bool>> inside = corners_of_triangles_in(mesh, *region);
+    if (!inside) return inside.error();
+    const auto weights = confined_weights(mesh, kRefinement, *inside);
+    if (!weights) return weights.error();
+    record.steps.push_back(confining(*region, *weights, "corners_of_triangles_in_it",
+                                     "triangles that have a point in it are refined"));
+    const TemporaryWeights confined(mesh, kRefinement, *weights);
+    return operation.run(mesh, settings, share);
+  };
+  const auto after_phase = [&](std::size_t i) -> Result<void> {
+    keep_phase(keep_phases, fmt::format("phase {}", i + 1), mesh, record);
+    return {};
+  };
+  return run_all("refine", methods, find_refine, record, context, refine, after_phase);
 }
 
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs) {
