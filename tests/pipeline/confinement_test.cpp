@@ -61,8 +61,8 @@ TEST(Confinement, IsDecidedBeforeTheFirstPhase) {
 TEST(Confinement, RegionsAreOfTheWorld) {
   TriangleMesh mesh = make_sphere(1, 2);
   mesh.frame.origin = {0, 0, 10};
-  EXPECT_FALSE(weights_inside(mesh, kUpperHalf));
-  EXPECT_TRUE(weights_inside(mesh, Box{{-2, -2, 10}, {2, 2, 12}}));
+  EXPECT_FALSE(vertices_inside(mesh, kUpperHalf));
+  EXPECT_TRUE(vertices_inside(mesh, Box{{-2, -2, 10}, {2, 2, 12}}));
 }
 
 TEST(Confinement, LeavesNoTraceInMeshAndPhases) {

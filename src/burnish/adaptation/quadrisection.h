@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "burnish/adaptation/blend.h"
 #include "burnish/adaptation/interpolation.h"
 #include "burnish/adaptation/refinement.h"
 #include "burnish/core/edge_table.h"
@@ -27,15 +28,10 @@ struct Quadrisection {
 std::optional<Quadrisection> plan_quadrisection(const TriangleMesh& mesh,
                                                 const RefinementZone& zone, const Context& context);
 
-/// Cuts the triangles of `mesh`. `positions` are those of the old vertices and then of the new
-/// ones. False where the context was cancelled; `mesh` is then of no meaning. A triangle that names
-/// a vertex twice becomes four such. O(#T).
-bool quadrisect(TriangleMesh& mesh, const Quadrisection& plan, std::vector<Vec3f> positions,
+/// Cuts the triangles of `mesh` and puts its vertices where `placement` says. False where the
+/// context was cancelled; `mesh` is then of no meaning. A triangle that names a vertex twice
+/// becomes four such. O(#T).
+bool quadrisect(TriangleMesh& mesh, const Quadrisection& plan, Placement placement,
                 const Context& context);
-
-/// The place in the middle of two.
-inline Vec3f midpoint(const Vec3f& a, const Vec3f& b) {
-  return Vec3f(0.5 * (Vec3d(a) + Vec3d(b)));
-}
 
 }  // namespace burnish

@@ -53,6 +53,13 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
                               const SmoothingLimits& limits, bool keep_phases, Record& record,
                               const Context& context);
 
+/// Makes triangles smaller, around a region (world coordinates) alone where one is given: each
+/// method refines every triangle that has a point in it, as far as a channel refinement that the
+/// mesh brings allows, and fits those around. With `keep_phases` as smooth_in_phases.
+Result<void> refine_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                              const std::optional<Region>& region, bool keep_phases, Record& record,
+                              const Context& context);
+
 /// A record with its title, the command line and the versions filled in.
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs);
 

@@ -38,6 +38,10 @@ Result<void> check_smoothing(const std::vector<Method>& methods) {
   return check_methods(methods, find_smooth);
 }
 
+Result<void> check_refinement(const std::vector<Method>& methods) {
+  return check_methods(methods, find_refine);
+}
+
 Result<void> check(const Recipe& recipe) {
   const FrameSteps& frames = recipe.frames;
   if (frames.average) {

@@ -40,7 +40,8 @@ Result<NoiseBoundParams> parse_bound(std::string_view text);
 /// and a bound is not to hold vertices to depths that a filter has moved. Errors: invalid_argument.
 Result<void> check(const Recipe& recipe);
 
-/// The same for a list of smoothing methods alone.
+/// The same for a list of smoothing methods alone, and of refinements.
 Result<void> check_smoothing(const std::vector<Method>& methods);
+Result<void> check_refinement(const std::vector<Method>& methods);
 
 }  // namespace burnish
