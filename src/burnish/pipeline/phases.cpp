@@ -89,19 +89,21 @@ auto create(std::string_view verb, const Result<const Op*>& operation, const T& 
                  : Result<Made>(std::move(created).error());
 }
 
-/// Keeps the mesh at the moments that a report shows, where one is wanted.
+/// Keeps the mesh at the moments that a report shows, where one is wanted: as it is first, then
+/// after each method, one numbered after the other also where several steps follow each other.
 class Phases {
  public:
   Phases(const TriangleMesh& mesh, bool wanted, Record& record)
       : mesh_(mesh), wanted_(wanted), record_(record) {
-    keep("original");
+    if (record.phases.empty()) keep("original");
   }
+  void keep_next() { keep(fmt::format("phase {}", record_.phases.size())); }
+
+ private:
   void keep(std::string name) {
     if (wanted_) record_.phases.push_back({std::move(name), mesh_, {}});
   }
-  void keep_after(std::size_t method) { keep(fmt::format("phase {}", method + 1)); }
 
- private:
   const TriangleMesh& mesh_;
   bool wanted_;
   Record& record_;
@@ -194,7 +196,7 @@ Result<void> simplify_in_phases(TriangleMesh& mesh, const std::vector<Method>& m
       [&mesh](const SimplifyOperation& operation, const Settings& settings, const Context& share) {
         return operation.run(mesh, settings, share);
       },
-      [&phases](std::size_t i) { phases.keep_after(i); });
+      [&phases](std::size_t) { phases.keep_next(); });
 }
 
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
@@ -224,11 +226,11 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
   };
   Context silent = context;
   silent.sink = nullptr;  // the bar belongs to the phases; to bind one takes next to no time
-  const auto after_phase = [&](std::size_t i) -> Result<void> {
+  const auto after_phase = [&](std::size_t) -> Result<void> {
     if (limits.bound) {
       if (auto done = put_back(before, mesh, *limits.bound, record, silent); !done) return done;
     }
-    phases.keep_after(i);
+    phases.keep_next();
     return {};
   };
   if (auto done = run_all("smooth", methods, find_smooth, record, context, smooth, after_phase);
@@ -255,7 +257,7 @@ Result<void> refine_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
     return operation.run(mesh, settings, share);
   };
   return run_all("refine", methods, find_refine, record, context, refine,
-                 [&phases](std::size_t i) { phases.keep_after(i); });
+                 [&phases](std::size_t) { phases.keep_next(); });
 }
 
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs) {
