@@ -25,9 +25,8 @@ struct SplitParams {
 /// of the smallest before, if the surface is not moved.
 ///
 /// Without max_chord nothing moves: the surface is the same set of points, up to the rounding of
-/// the middles to floats. With it new vertices lie on those curves, so that a coarse mesh of a
-/// round thing gets rounder; one of a thing with sharp edges needs normals that know of them, for
-/// those of its vertices are what they are.
+/// the middles to floats. With it new vertices lie on the arcs, so that a coarse mesh of a round
+/// thing gets rounder, and so do the edges of a box, whose vertices' normals know no better.
 ///
 /// Where a channel `refinement` confines the method, edges with an end that has 1 are split; others
 /// only where they are in the way, at their middle. A closed surface of two triangles with the same
