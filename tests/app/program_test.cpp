@@ -402,6 +402,31 @@ TEST(Program, SeveralScansWithoutPosesAreRefusedWithWhatToGive) {
   EXPECT_NE(outcome.err.find("--poses"), std::string::npos) << outcome.err;
 }
 
+TEST(Program, RefinesAroundARegionAndSaysWhichVerticesAreNew) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "sphere.ply", make_sphere(1, 3)));
+  const std::string in = folder / "sphere.ply", out = folder / "out.ply";
+  const Outcome done = burnish({"refine", in, "-o", out, "-m", "sqrt3", "-m",
+                                "split:target_edge_length=5cm", "--region", "sphere:0,0,1,20cm"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_NE(done.out.find("refine sqrt3: new_vertices"), std::string::npos) << done.out;
+  const auto before = read_mesh(in), after = read_mesh(out);
+  ASSERT_TRUE(before && after);
+  EXPECT_GT(after->positions.size(), before->positions.size());
+  const Topology t = topology(*after);
+  EXPECT_TRUE(t.closed() && t.oriented());
+  EXPECT_EQ(t.euler_number, 2);
+  ASSERT_EQ(after->attributes.origin.size(), after->positions.size());
+  EXPECT_EQ(after->attributes.origin.front(), Origin::seen);
+  EXPECT_EQ(after->attributes.origin.back(), Origin::interpolated);
+  for (const char* bad : {"polish", "loop:iterations=17", "split:max_chord=-1"}) {
+    EXPECT_EQ(burnish({"refine", in, "-o", folder / "no.ply", "-m", bad}).status, 2) << bad;
+  }
+  EXPECT_EQ(burnish({"refine", in, "-o", folder / "no.ply", "--region", "sphere:9,9,9,1"}).status,
+            2);
+  EXPECT_FALSE(fs::exists(folder / "no.ply"));
+}
+
 TEST(Program, InterruptStopsWithinASecondAndLeavesNoFile) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "grid.ply", make_grid(500, 500, 0.001)));

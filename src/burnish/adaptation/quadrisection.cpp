@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "burnish/adaptation/closed_pair.h"
 #include "burnish/base/parallel.h"
 
 namespace burnish {
@@ -85,7 +86,7 @@ std::optional<Quadrisection> plan_quadrisection(const TriangleMesh& mesh,
     const bool cut = std::any_of(sides.begin(), sides.end(), [&](std::uint32_t side) {
       return zone.touches(mesh.triangles[side / 3]);
     });
-    if (!cut) continue;
+    if (!cut || in_closed_pair(plan.edges, static_cast<std::uint32_t>(e))) continue;
     plan.vertex_of_edge[e] = next++;
     plan.parents.push_back(plan.edges.vertices(e));
   }

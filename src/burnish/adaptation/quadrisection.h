@@ -15,9 +15,10 @@ namespace burnish {
 inline constexpr std::uint32_t kNoVertex = ~0u;
 
 /// A mesh's triangles cut in four by new vertices on their edges; where those lie is left to the
-/// method. The edges of all triangles that the zone touches are cut. A triangle all of whose edges
-/// are cut becomes four, one with two cut edges three (by the shorter diagonal of what is left),
-/// one with one cut edge two: so triangles around the zone fit it.
+/// method. The edges of all triangles that the zone touches are cut, but
+/// for those of a closed surface of two triangles, which would become non-manifold. A triangle all
+/// of whose edges are cut becomes four, one with two cut edges three (by the shorter diagonal of
+/// what is left), one with one cut edge two: so triangles around the zone fit it.
 struct Quadrisection {
   EdgeTable edges;
   std::vector<std::uint32_t> vertex_of_edge;  ///< the number of the new vertex, or kNoVertex

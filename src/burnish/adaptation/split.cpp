@@ -7,7 +7,8 @@
 #include <optional>
 #include <queue>
 
-#include "burnish/adaptation/normal_curve.h"
+#include "burnish/adaptation/closed_pair.h"
+#include "burnish/adaptation/normal_arc.h"
 #include "burnish/adaptation/splittable_mesh.h"
 #include "burnish/core/edges.h"
 
@@ -19,7 +20,7 @@ struct Limits {
   double length = HUGE_VAL, chord = HUGE_VAL;
 
   bool curved() const { return chord < HUGE_VAL; }
-  /// No edge that is not longer than this is ever split: a curve rises by at most an eighth.
+  /// No edge that is not longer than this is ever split: an arc rises by at most an eighth.
   double shortest() const { return std::min(length, 8 * chord); }
 };
 
@@ -34,8 +35,8 @@ Limits limits_of(const TriangleMesh& mesh, const SplitParams& params) {
   return limits;
 }
 
-/// Every split makes edges shorter, by 0.9 % where curves rise most, so that splitting ends - if
-/// the rounding of places to floats is as little. Errors: invalid_argument.
+/// Every split makes edges shorter, by 0.9 % at least where arcs rise most, so that splitting ends
+/// - if the rounding of places to floats is as little. Errors: invalid_argument.
 Result<void> check_limits(const TriangleMesh& mesh, const Limits& limits) {
   double farthest = 0, area = 0;
   for (const Vec3f& p : mesh.positions) {
@@ -69,14 +70,14 @@ std::vector<Vec3d> normals_of(const TriangleMesh& mesh) {
 
 class Splitter {
  public:
-  Splitter(const TriangleMesh& mesh, SplittableMesh surface, const RefinementZone& zone,
+  Splitter(const TriangleMesh& mesh, const EdgeTable& edges, const RefinementZone& zone,
            const Limits& limits)
-      : surface_(std::move(surface)), limits_(limits) {
+      : surface_(mesh, edges), limits_(limits) {
     if (limits.curved()) normals_ = normals_of(mesh);
     in_zone_.resize(mesh.positions.size());
     for (std::uint32_t v = 0; v < in_zone_.size(); ++v) in_zone_[v] = zone.has(v);
-    for (std::uint32_t e = 0; e < surface_.edges(); ++e) {
-      if (!surface_.closes_on_itself(e)) consider(e);
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+      if (!in_closed_pair(edges, e)) consider(e);
     }
   }
 
@@ -122,7 +123,7 @@ class Splitter {
     return in_zone_[a] || in_zone_[b];
   }
 
-  NormalCurve curve(std::uint32_t edge) const {
+  NormalArc arc(std::uint32_t edge) const {
     const auto [a, b] = surface_.ends(edge);
     const auto& places = surface_.positions();
     return {Vec3d(places[b]) - Vec3d(places[a]), normals_[a], normals_[b]};
@@ -131,7 +132,7 @@ class Splitter {
   void consider(std::uint32_t edge) {
     if (!in_zone(edge)) return;
     const double length = surface_.squared_length(edge);
-    const bool bent = limits_.curved() && norm(curve(edge).rise) > limits_.chord;
+    const bool bent = limits_.curved() && norm(arc(edge).rise) > limits_.chord;
     if (bent || length > limits_.length * limits_.length) queue_.push({length, edge});
   }
 
@@ -149,7 +150,7 @@ class Splitter {
     const auto& places = surface_.positions();
     Vec3d place = 0.5 * (Vec3d(places[a]) + Vec3d(places[b]));
     if (limits_.curved()) {
-      const NormalCurve between = curve(edge);
+      const NormalArc between = arc(edge);
       if (in_zone(edge)) place += between.rise;
       normals_.push_back(between.normal);
     }
@@ -159,7 +160,7 @@ class Splitter {
 
   SplittableMesh surface_;
   Limits limits_;
-  std::vector<Vec3d> normals_;  ///< of the vertices, where curves matter
+  std::vector<Vec3d> normals_;  ///< of the vertices, where arcs matter
   std::vector<bool> in_zone_;   ///< per vertex
   std::priority_queue<Candidate> queue_;
 };
@@ -189,8 +190,8 @@ const Schema<SplitParams>& SplitParams::schema() {
                 "where max_chord is 0 too",
                 Quantity::length)
           .real("max_chord", &P::max_chord, at_least(0),
-                "edges are split where a curve along the normals is farther away than this, and "
-                "new vertices lie on the curve; 0: none are",
+                "edges are split where the arc that normals suggest is farther away than this, and "
+                "new vertices lie on the arc; 0: none are",
                 Quantity::length);
   return schema;
 }
@@ -204,9 +205,9 @@ Result<RefinementReport> refine_split(TriangleMesh& mesh, const SplitParams& par
   const Limits limits = limits_of(mesh, params);
   if (auto possible = check_limits(mesh, limits); !possible) return possible.error();
 
-  auto surface = SplittableMesh::of(mesh, context.part(0, 0.2));
-  if (!surface) return cancelled();
-  Splitter splitter(mesh, *std::move(surface), *zone, limits);
+  const auto edges = EdgeTable::of(mesh, context.part(0, 0.2));
+  if (!edges) return cancelled();
+  Splitter splitter(mesh, *edges, *zone, limits);
   if (auto done = splitter.run(context.part(0.2, 0.9)); !done) return done.error();
   TriangleMesh result = assembled(mesh, splitter.surface());
   context.progress(0.95);

@@ -1,6 +1,7 @@
 #include "burnish/adaptation/splittable_mesh.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace burnish {
 namespace {
@@ -22,22 +23,17 @@ Triangle with(Triangle t, std::uint32_t instead_of, std::uint32_t v) {
 
 }  // namespace
 
-std::optional<SplittableMesh> SplittableMesh::of(const TriangleMesh& mesh, const Context& context) {
-  const std::optional<EdgeTable> table = EdgeTable::of(mesh, context);
-  if (!table) return {};
-  SplittableMesh result;
-  result.positions_ = mesh.positions;
-  result.triangles_ = mesh.triangles;
-  result.origins_.resize(mesh.triangles.size());
-  for (std::uint32_t t = 0; t < result.origins_.size(); ++t) result.origins_[t] = t;
-  result.next_.assign(3 * mesh.triangles.size(), kNoSide);
-  result.edge_.assign(3 * mesh.triangles.size(), kNoEdge);
-  for (std::size_t e = 0; e < table->size(); ++e) {
-    const auto [a, b] = table->vertices(e);
-    const std::uint32_t edge = result.add_edge(a, b);
-    for (const std::uint32_t side : table->sides(e)) result.join(edge, side);
+SplittableMesh::SplittableMesh(const TriangleMesh& mesh, const EdgeTable& edges)
+    : positions_(mesh.positions), triangles_(mesh.triangles) {
+  origins_.resize(triangles_.size());
+  std::iota(origins_.begin(), origins_.end(), 0u);
+  next_.assign(3 * triangles_.size(), kNoSide);
+  edge_.assign(3 * triangles_.size(), kNoEdge);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto [a, b] = edges.vertices(e);
+    const std::uint32_t edge = add_edge(a, b);
+    for (const std::uint32_t side : edges.sides(e)) join(edge, side);
   }
-  return result;
 }
 
 double SplittableMesh::squared_length(std::uint32_t edge) const {
@@ -60,22 +56,6 @@ std::uint32_t SplittableMesh::longest_beside(std::uint32_t edge) const {
     }
   }
   return longest;
-}
-
-bool SplittableMesh::closes_on_itself(std::uint32_t edge) const {
-  const auto two_triangles = [&](std::uint32_t e) {
-    const std::uint32_t one = first_[e], other = one == kNoSide ? kNoSide : next_[one];
-    return other != kNoSide && next_[other] == kNoSide
-               ? std::array{std::min(one, other) / 3, std::max(one, other) / 3}
-               : std::array{0u, 0u};
-  };
-  const auto [t, u] = two_triangles(edge);
-  if (t == u) return false;
-  for (std::uint32_t i = 0; i < 3; ++i) {
-    const std::uint32_t e = edge_[3 * t + i];
-    if (e == kNoEdge || two_triangles(e) != std::array{t, u}) return false;
-  }
-  return true;
 }
 
 std::uint32_t SplittableMesh::add_edge(std::uint32_t a, std::uint32_t b) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,22 +13,17 @@ namespace burnish {
 /// triangles along them. Any mesh: an edge may have any number of triangles.
 class SplittableMesh {
  public:
-  /// O(#T log valence). Nothing where the context was cancelled.
-  static std::optional<SplittableMesh> of(const TriangleMesh& mesh, const Context& context);
+  /// `edges` are those of `mesh`, and keep their numbers.
+  SplittableMesh(const TriangleMesh& mesh, const EdgeTable& edges);
 
   const std::vector<Vec3f>& positions() const { return positions_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  std::size_t edges() const { return ends_.size(); }
   std::array<std::uint32_t, 2> ends(std::uint32_t edge) const { return ends_[edge]; }
   double squared_length(std::uint32_t edge) const;
 
   /// The longest of `edge` and the other edges of its triangles, of equal ones that with the
   /// smallest number.
   std::uint32_t longest_beside(std::uint32_t edge) const;
-
-  /// Whether `edge` belongs to two triangles with the same three corners and to nothing else, and
-  /// so do their other edges.
-  bool closes_on_itself(std::uint32_t edge) const;
 
   /// Puts a vertex at `place` on an edge: the edge keeps its number and one of its ends. Each
   /// triangle along it becomes two, which keep its orientation; the one with the edge's first end
@@ -43,8 +37,6 @@ class SplittableMesh {
   const std::vector<std::uint32_t>& origins() const { return origins_; }
 
  private:
-  SplittableMesh() = default;
-
   std::uint32_t add_edge(std::uint32_t a, std::uint32_t b);
   void join(std::uint32_t edge, std::uint32_t side);
   void replace(std::uint32_t edge, std::uint32_t side, std::uint32_t by);
