@@ -37,8 +37,7 @@ class PlainRemovals {
   bool legal(std::uint32_t v, std::uint32_t w) const {
     std::map<std::uint32_t, std::vector<std::uint32_t>> spokes;
     for (const std::uint32_t t : around_[v]) {
-      const auto [a, b, c] = mesh_.triangles[t];
-      if (a == b || b == c || c == a) return false;
+      if (names_twice(t)) return false;
       for (const std::uint32_t x : mesh_.triangles[t]) {
         if (x != v) spokes[x].push_back(t);
       }
@@ -100,6 +99,11 @@ class PlainRemovals {
     return std::find(corners.begin(), corners.end(), v) != corners.end();
   }
 
+  bool names_twice(std::uint32_t t) const {
+    const auto [a, b, c] = mesh_.triangles[t];
+    return a == b || b == c || c == a;
+  }
+
   static std::size_t open_ends(const Spokes& spokes) {
     return static_cast<std::size_t>(std::count_if(
         spokes.begin(), spokes.end(), [](const auto& spoke) { return spoke.second.size() == 1; }));
@@ -133,7 +137,9 @@ class PlainRemovals {
     std::size_t beyond = 0;
     for (const std::uint32_t x : mesh_.triangles[ear]) {
       if (x == v || x == w) continue;
-      for (const std::uint32_t t : around_[w]) beyond += t != ear && has(t, x);
+      for (const std::uint32_t t : around_[w]) {
+        if (t != ear && has(t, x)) beyond += names_twice(t) ? 2 : 1;
+      }
     }
     return beyond == 1;
   }

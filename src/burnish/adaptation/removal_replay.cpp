@@ -111,19 +111,22 @@ Result<void> RemovalReplay::check_link(const Removal& removal, StarShape shape) 
   const std::uint32_t left = corner_beside(ordered_.front(), v, into);
   const std::uint32_t right =
       shape == StarShape::closed ? corner_beside(ordered_[1], v, into) : left;
-  std::uint32_t common = kNone, beyond = kNone, beyond_count = 0;
+  std::uint32_t common = kNone, beyond = kNone;
+  int beyond_count = 0;
   bool twice = false;
   for_each_triangle(into, [&](std::uint32_t t) {
     const Triangle& corners = triangles_[t];
     if (std::find(corners.begin(), corners.end(), v) != corners.end()) return;
-    int both = 0;
+    int lefts = 0, rights = 0;
     for (const std::uint32_t other : corners) {
       if (other == into || spokes_[other].first == kNone) continue;
+      lefts += other == left;
+      rights += other == right;
       if (other != left && other != right) common = other;
-      both += other == left ? 1 : 2;
     }
-    twice = twice || (both == 3 && ordered_.size() == 3 && left != right);
-    if (shape == StarShape::ear && both > 0) ++beyond_count, beyond = t;
+    twice = twice || (ordered_.size() == 3 && left != right && lefts > 0 && rights > 0);
+    if (lefts > 0) beyond = t;
+    beyond_count += lefts;  // a triangle that names a vertex twice has the edge twice
   });
   if (common != kNone) {
     return refused(fmt::format(
