@@ -128,6 +128,17 @@ inline void expect_adaptive_mesh_keeps_promises(const TriangleMesh& mesh, std::u
   require_of_adaptive_mesh(adaptive->mesh() == plain.mesh(), "a level is the log's beginning");
   adaptive->restore();
   require_of_adaptive_mesh(adaptive->mesh() == mesh, "all comes back, bit for bit");
+
+  adaptive->to_removals(count);
+  adaptive->remember_detail();
+  for (int i = 0; i < operations; ++i) random_operation(*adaptive, mesh, 12, random);
+  adaptive->restore();
+  const TriangleMesh back = adaptive->mesh();
+  require_of_adaptive_mesh(back.triangles == mesh.triangles, "triangles come back with detail");
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const double off = norm(Vec3d(back.positions[v]) - Vec3d(mesh.positions[v]));
+    require_of_adaptive_mesh(off <= 1e-5, "vertices come back with detail to within rounding");
+  }
 }
 
 }  // namespace burnish::test
