@@ -59,7 +59,8 @@ inline void random_operation(AdaptiveMesh& adaptive, const TriangleMesh& origina
   if (which == 13) adaptive.to_error(error);
   if (which == 14) adaptive.to_triangles(random.below(original.triangles.size() + 1));
   if (which == 15) {
-    done = adaptive.focus(inside, {.outside_triangles = random.below(original.triangles.size())});
+    done =
+        adaptive.focus(inside, {.outside_triangles = random.below(original.triangles.size() + 1)});
   }
   if (!done) std::abort();
 }
