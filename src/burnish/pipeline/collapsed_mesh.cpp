@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "burnish/pipeline/growing_mesh.h"
+#include "burnish/pipeline/triangle_stars.h"
 
 namespace burnish {
 namespace {
@@ -13,7 +13,6 @@ namespace {
 class Collapser {
  public:
   explicit Collapser(const TriangleMesh& mesh) {
-    result_.triangles = mesh.triangles;
     result_.vertex_gone.assign(mesh.positions.size(), 0);
     result_.triangle_gone.assign(mesh.triangles.size(), 0);
     stars_.reserve(mesh.positions.size(), mesh.triangles.size());
@@ -26,6 +25,9 @@ class Collapser {
 
   CollapsedMesh result() && {
     begin_step();
+    result_.triangles.reserve(stars_.triangles());
+    for (std::uint32_t t = 0; t < stars_.triangles(); ++t)
+      result_.triangles.push_back(stars_.triangle(t));
     return std::move(result_);
   }
 
@@ -39,7 +41,7 @@ class Collapser {
   const char* find_star(const Removal& removal);
 
   CollapsedMesh result_;
-  CornerStars stars_;
+  TriangleStars stars_;
   std::vector<std::uint32_t> moving_, going_;  ///< corners at the vertex of one removal
 };
 
@@ -47,9 +49,8 @@ class Collapser {
 const char* Collapser::find_star(const Removal& removal) {
   moving_.clear();
   going_.clear();
-  for (std::uint32_t corner = stars_.first(removal.vertex); corner != CornerStars::kEnd;
-       corner = stars_.next(corner)) {
-    const Triangle& triangle = result_.triangles[corner / 3];
+  for (const std::uint32_t corner : stars_.corners_at(removal.vertex)) {
+    const Triangle& triangle = stars_.triangle(corner / 3);
     const auto named = std::count(triangle.begin(), triangle.end(), removal.into);
     if (named == 0) {
       moving_.push_back(corner);
@@ -72,13 +73,12 @@ const char* Collapser::remove(const Removal& removal) {
   begin_step();
   for (const std::uint32_t corner : going_) {
     const std::uint32_t t = corner / 3;
-    for (std::uint32_t k = 0; k < 3; ++k) stars_.take(result_.triangles[t][k], 3 * t + k);
+    for (std::uint32_t k = 0; k < 3; ++k) stars_.take(3 * t + k);
     result_.triangle_gone[t] = 1;
   }
   for (const std::uint32_t corner : moving_) {
-    stars_.take(removal.vertex, corner);
-    stars_.put(removal.into, corner);
-    result_.triangles[corner / 3][corner % 3] = removal.into;
+    stars_.take(corner);
+    stars_.put(corner, removal.into);
     result_.moved.push_back(corner);
   }
   std::sort(going_.begin(), going_.end());

@@ -2,39 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "burnish/core/triangle_mesh.h"
+#include "burnish/pipeline/triangle_stars.h"
 
 namespace burnish {
-
-/// The corners at each vertex as lists, the latest first. Corner 3 t + k is the k-th of triangle t.
-class CornerStars {
- public:
-  static constexpr std::uint32_t kEnd = ~0u;
-
-  void reserve(std::size_t vertices, std::size_t triangles);
-  void add_vertex() { first_.push_back(kEnd); }
-  /// The corners of the next triangle; vertices must have been added.
-  void add_triangle(const Triangle& triangle);
-
-  std::uint32_t first(std::uint32_t vertex) const { return first_[vertex]; }
-  std::uint32_t next(std::uint32_t corner) const { return next_[corner]; }
-
-  /// Takes `corner` off the list of `vertex`, which has it. O(valence).
-  void take(std::uint32_t vertex, std::uint32_t corner);
-  /// Puts a corner that is on no list at the head of that of `vertex`.
-  void put(std::uint32_t vertex, std::uint32_t corner) {
-    next_[corner] = first_[vertex];
-    first_[vertex] = corner;
-  }
-  /// Takes those whose `moves` is set, in the order of the list, over to the empty list of `to`.
-  void move(std::uint32_t from, std::uint32_t to, std::span<const std::uint8_t> moves);
-
- private:
-  std::vector<std::uint32_t> first_, next_;
-};
 
 /// A triangle that comes back with a vertex split: its corners are the vertex that was split, the
 /// new one and an apex.
@@ -62,32 +34,16 @@ struct VertexSplit {
 
 /// The triangles of a mesh that grows by vertex splits. Vertices and triangles are numbered in the
 /// order in which they came; which ones of the original they are is carried along.
-class GrowingMesh {
- public:
+struct GrowingMesh {
+  TriangleStars stars;
+  std::vector<std::uint32_t> vertex_indices, triangle_indices;  ///< in the original
+
   void reserve(std::size_t vertices, std::size_t triangles);
   void add_vertex(std::uint32_t index);
   void add_triangle(const Triangle& triangle, std::uint32_t index);
 
   /// O(valence of `into`). What the split names must be there; its apexes are not `into`.
   void split(const VertexSplit& split);
-
-  std::size_t vertices() const { return vertex_indices_.size(); }
-  const std::vector<Triangle>& triangles() const { return triangles_; }
-  const CornerStars& stars() const { return stars_; }
-  std::uint32_t vertex_index(std::uint32_t v) const { return vertex_indices_[v]; }
-  std::uint32_t triangle_index(std::uint32_t t) const { return triangle_indices_[t]; }
-
-  /// What is left of it once it is grown up.
-  struct Parts {
-    std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> vertex_indices, triangle_indices;
-  };
-  Parts parts() &&;
-
- private:
-  std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> vertex_indices_, triangle_indices_;
-  CornerStars stars_;
 };
 
 }  // namespace burnish

@@ -131,7 +131,7 @@ Result<void> HeadReader::read_vertices() {
     return ok;
   reserve();
   for (const std::uint32_t index : kept_) {
-    if (head_.coarse.mesh.vertices() % 4096 == 0 && !keep_going_()) return cancelled();
+    if (head_.coarse.mesh.stars.vertices() % 4096 == 0 && !keep_going_()) return cancelled();
     const std::byte* row = cursor_.take(row_size);
     if (!row || !columns.append(row))
       return expected(fmt::format("vertex {}, finite and of a known origin,", index));
@@ -156,7 +156,7 @@ Result<void> HeadReader::read_triangle(std::uint32_t index) {
   }
   if (coarse.columns.triangle_owner()) {
     std::uint32_t owner = 0;
-    if (!read_near(cursor_, coarse.mesh.vertex_index(triangle[0]), head_.file.vertices, owner))
+    if (!read_near(cursor_, coarse.mesh.vertex_indices[triangle[0]], head_.file.vertices, owner))
       return expected(fmt::format("the owner of triangle {}", index));
     coarse.triangle_owner.push_back(owner);
   }
@@ -167,7 +167,7 @@ Result<void> HeadReader::read_triangle(std::uint32_t index) {
 Result<void> HeadReader::read_triangles() {
   if (auto ok = read_kept(head_.file.coarse_triangles, head_.file.triangles, 3); !ok) return ok;
   for (const std::uint32_t index : kept_) {
-    if (head_.coarse.mesh.triangles().size() % 4096 == 0 && !keep_going_()) return cancelled();
+    if (head_.coarse.mesh.stars.triangles() % 4096 == 0 && !keep_going_()) return cancelled();
     if (auto ok = read_triangle(index); !ok) return ok;
   }
   return {};

@@ -28,7 +28,7 @@ class ProgressiveReader {
  private:
   GrownMesh& grown() { return head_.coarse; }
   std::uint64_t records() const { return head_.file.vertices - head_.file.coarse_vertices; }
-  std::uint64_t triangles() const { return head_.coarse.mesh.triangles().size(); }
+  std::uint64_t triangles() const { return head_.coarse.mesh.stars.triangles(); }
   bool wants_more() const {
     return (!stop_.triangles || triangles() < *stop_.triangles) &&
            (!stop_.error || error_ > *stop_.error);
@@ -156,7 +156,7 @@ Result<void> ProgressiveReader::read(bool log) {
     if (!grew) return grew.error();
     if (!*grew) return {};
     if (log) {
-      const auto vertex = static_cast<std::uint32_t>(grown().mesh.vertices() - 1);
+      const auto vertex = static_cast<std::uint32_t>(grown().mesh.stars.vertices() - 1);
       removals_.push_back({vertex, split_.into, before});
     }
     error_ = split_.error;

@@ -10,15 +10,6 @@ namespace {
 /// Stars up to this are told by a bit a corner, larger ones by runs.
 constexpr std::size_t kMaskedCorners = 32;
 
-std::size_t corners_at(const GrowingMesh& mesh, std::uint32_t vertex) {
-  std::size_t count = 0;
-  for (std::uint32_t corner = mesh.stars().first(vertex); corner != CornerStars::kEnd;
-       corner = mesh.stars().next(corner)) {
-    ++count;
-  }
-  return count;
-}
-
 void put_moves(std::string& bytes, const std::vector<std::uint8_t>& moves) {
   if (moves.size() <= kMaskedCorners) {
     std::uint32_t mask = 0;
@@ -71,12 +62,10 @@ struct NamedApex {
 
 NamedApex name_of(const GrowingMesh& mesh, std::uint32_t into, std::uint32_t apex) {
   std::uint64_t place = 0;
-  for (std::uint32_t corner = mesh.stars().first(into); corner != CornerStars::kEnd;
-       corner = mesh.stars().next(corner)) {
+  for (const std::uint32_t corner : mesh.stars.corners_at(into)) {
     for (std::uint32_t step = 1; step <= 2; ++step, ++place) {
-      const std::uint32_t other = turned(corner, step);
-      if (mesh.triangles()[other / 3][other % 3] == apex)
-        return {place, mesh.triangle_index(corner / 3)};
+      if (mesh.stars.vertex_at(turned(corner, step)) == apex)
+        return {place, mesh.triangle_indices[corner / 3]};
     }
   }
   return {place + apex, 0};
@@ -86,11 +75,10 @@ NamedApex name_of(const GrowingMesh& mesh, std::uint32_t into, std::uint32_t ape
 std::uint32_t apex_of(const GrowingMesh& mesh, std::uint32_t into, std::size_t corners,
                       NamedApex& named) {
   if (named.name >= 2 * corners) return static_cast<std::uint32_t>(named.name - 2 * corners);
-  std::uint32_t corner = mesh.stars().first(into);
-  for (std::uint64_t i = 0; i < named.name / 2; ++i) corner = mesh.stars().next(corner);
-  named.near = mesh.triangle_index(corner / 3);
-  const std::uint32_t other = turned(corner, 1 + static_cast<std::uint32_t>(named.name % 2));
-  return mesh.triangles()[other / 3][other % 3];
+  auto corner = mesh.stars.corners_at(into).begin();
+  for (std::uint64_t i = 0; i < named.name / 2; ++i) ++corner;
+  named.near = mesh.triangle_indices[*corner / 3];
+  return mesh.stars.vertex_at(turned(*corner, 1 + static_cast<std::uint32_t>(named.name % 2)));
 }
 
 constexpr unsigned kNoTriangle = 7;  ///< in place of the second one's order
@@ -100,7 +88,7 @@ const char* read_triangle(Cursor& cursor, const GrowingMesh& mesh,
                           const VertexSplit& split, ReturningTriangle& back) {
   const std::size_t corners = split.moves.size();
   NamedApex apex;
-  if (!read_number(cursor, 2 * corners + mesh.vertices(), apex.name))
+  if (!read_number(cursor, 2 * corners + mesh.stars.vertices(), apex.name))
     return "no apex of a triangle";
   back.apex = apex_of(mesh, split.into, corners, apex);
   if (back.apex == split.into) return "a triangle names a vertex twice";
@@ -124,7 +112,7 @@ void put_split_head(std::string& bytes, const GrowingMesh& mesh, float error,
   put_number(bytes, split.into);
   put_number(bytes,
              std::bit_cast<std::uint32_t>(error) - std::bit_cast<std::uint32_t>(split.error));
-  put_near(bytes, split.index, mesh.vertex_index(split.into));
+  put_near(bytes, split.index, mesh.vertex_indices[split.into]);
 }
 
 void put_split_tail(std::string& bytes, const GrowingMesh& mesh, const ProgressiveColumns& columns,
@@ -145,12 +133,12 @@ void put_split_tail(std::string& bytes, const GrowingMesh& mesh, const Progressi
 const char* read_split(Cursor& cursor, const GrowingMesh& mesh, float error,
                        const ProgressiveColumns& columns, const OriginalSize& original,
                        VertexSplit& split, const std::byte*& row) {
-  if (!read_number(cursor, mesh.vertices(), split.into)) return "no vertex to split";
+  if (!read_number(cursor, mesh.stars.vertices(), split.into)) return "no vertex to split";
   const auto error_bits = std::bit_cast<std::uint32_t>(error);
   std::uint32_t fall = 0;
   if (!read_number(cursor, std::uint64_t{error_bits} + 1, fall)) return "no error";
   split.error = std::bit_cast<float>(error_bits - fall);
-  if (!read_near(cursor, mesh.vertex_index(split.into), original.vertices, split.index))
+  if (!read_near(cursor, mesh.vertex_indices[split.into], original.vertices, split.index))
     return "no number of a vertex";
   row = cursor.take(columns.row_size());
   if (!row) return "no vertex";
@@ -160,7 +148,9 @@ const char* read_split(Cursor& cursor, const GrowingMesh& mesh, float error,
   const unsigned second = orders >> 3;
   if (first >= kCornerOrders.size() || (second >= kCornerOrders.size() && second != kNoTriangle))
     return "no order of corners";
-  split.moves.resize(corners_at(mesh, split.into));
+  split.moves.clear();
+  for ([[maybe_unused]] const std::uint32_t corner : mesh.stars.corners_at(split.into))
+    split.moves.push_back(0);
   if (!read_moves(cursor, split.moves)) return "no choice of corners";
   split.returning_count = second == kNoTriangle ? 1 : 2;
   split.returning[0].order = static_cast<std::uint8_t>(first);

@@ -71,7 +71,7 @@ class ProgressiveWriter {
   }
   void count_vertex() {
     constexpr std::size_t kAtOnce = 4096;
-    if (mesh_.vertices() % kAtOnce == 0) out_.advance(kAtOnce);
+    if (mesh_.stars.vertices() % kAtOnce == 0) out_.advance(kAtOnce);
   }
   void send_with_crc() {
     send();
@@ -111,7 +111,7 @@ void ProgressiveWriter::put_coarse_vertices() {
   put_kept(bytes_, collapsed_.vertex_gone);
   for (std::uint32_t v = 0; v < report_.vertices && out_.ok(); ++v) {
     if (collapsed_.vertex_gone[v] != 0) continue;
-    vertex_numbers_[v] = static_cast<std::uint32_t>(mesh_.vertices());
+    vertex_numbers_[v] = static_cast<std::uint32_t>(mesh_.stars.vertices());
     mesh_.add_vertex(v);
     put_row(bytes_, original_, v);
     send();
@@ -133,7 +133,7 @@ void ProgressiveWriter::put_coarse_triangles() {
     }
     if (columns_.triangle_origin()) bytes_ += static_cast<char>(known.origin[t]);
     if (columns_.triangle_owner()) put_near(bytes_, known.owner[t], collapsed_.triangles[t][0]);
-    triangle_numbers_[t] = static_cast<std::uint32_t>(mesh_.triangles().size());
+    triangle_numbers_[t] = static_cast<std::uint32_t>(mesh_.stars.triangles());
     mesh_.add_triangle(triangle, t);
     send();
   }
@@ -171,16 +171,14 @@ VertexSplit& ProgressiveWriter::split_of(std::size_t i) {
     collapsed_.triangles[corner / 3][corner % 3] = removal.vertex;
     moves_[number] = true;
   });
-  for (std::uint32_t corner = mesh_.stars().first(split_.into); corner != CornerStars::kEnd;
-       corner = mesh_.stars().next(corner)) {
+  for (const std::uint32_t corner : mesh_.stars.corners_at(split_.into))
     split_.moves.push_back(moves_[corner] ? 1 : 0);
-  }
   for_each_moved([&](std::uint32_t, std::uint32_t number) { moves_[number] = false; });
   split_.returning_count = 0;
   for (const std::uint32_t t : step.gone) {
     if (t == CollapsedMesh::kNone) continue;
     triangle_numbers_[t] =
-        static_cast<std::uint32_t>(mesh_.triangles().size() + split_.returning_count);
+        static_cast<std::uint32_t>(mesh_.stars.triangles() + split_.returning_count);
     split_.returning[split_.returning_count++] = returning(removal, t);
   }
   return split_;
@@ -194,7 +192,7 @@ void ProgressiveWriter::put_record(std::size_t removal) {
   send();
   put_raw(bytes_, static_cast<std::uint16_t>(crc_.value()));
   send();
-  vertex_numbers_[split.index] = static_cast<std::uint32_t>(mesh_.vertices());
+  vertex_numbers_[split.index] = static_cast<std::uint32_t>(mesh_.stars.vertices());
   mesh_.split(split);
   error_ = split.error;
   count_vertex();
