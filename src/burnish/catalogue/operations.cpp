@@ -1,5 +1,8 @@
 #include "burnish/catalogue/operations.h"
 
+#include "burnish/adaptation/midpoint.h"
+#include "burnish/adaptation/point_removal.h"
+#include "burnish/adaptation/quadric_collapse.h"
 #include "burnish/points/merge_cells.h"
 #include "burnish/points/remove_flying_pixels.h"
 #include "burnish/points/remove_outliers.h"
@@ -134,6 +137,26 @@ std::span<const SmoothOperation> smooth_operations() {
                      "he_schaefer_2013"),
       edit_operation("equalize", smooth_equalize,
                      "Evens the distances to neighbours within the surface; smooths nothing.", ""),
+  };
+  return list;
+}
+
+std::span<const SimplifyOperation> simplify_operations() {
+  static const std::vector<SimplifyOperation> list{
+      edit_operation("quadric", simplify_quadric,
+                     "Edges collapse to the point nearest to the planes that meet there.",
+                     "garland_heckbert_1997"),
+      edit_operation("point_removal", simplify_point_removal,
+                     "Vertices are removed, none is moved: what is left was measured.",
+                     "garland_heckbert_1997"),
+  };
+  return list;
+}
+
+std::span<const RefineOperation> refine_operations() {
+  static const std::vector<RefineOperation> list{
+      edit_operation("midpoint", refine_midpoint,
+                     "Every triangle becomes four by the middles of its edges; nothing moves.", ""),
   };
   return list;
 }
