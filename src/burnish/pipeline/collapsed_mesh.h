@@ -18,19 +18,20 @@ struct CollapsedMesh {
 
   /// What one removal did, in numbers of the original.
   struct Step {
-    std::uint32_t first_moved = 0;  ///< its corners that moved are moved[first_moved..] up to the
-                                    ///< next step's
+    std::uint32_t moved_end = 0;  ///< its corners that moved are in `moved` up to here, from where
+                                  ///< those of the step before end
     std::array<std::uint32_t, 2> gone{kNone, kNone};  ///< the triangles that went, lowest first
   };
 
   std::vector<Triangle> triangles;  ///< of the original, where the removals left them
   std::vector<std::uint8_t> vertex_gone, triangle_gone;  ///< 1: removed
-  std::vector<Step> steps;           ///< #removals + 1, so that every step has a next one
-  std::vector<std::uint32_t> moved;  ///< corners, 3 * triangle + place
+  std::vector<Step> steps;                               ///< #removals
+  std::vector<std::uint32_t> moved;                      ///< corners, 3 * triangle + place
 };
 
 /// Makes the removals, the first one first. Errors: invalid_argument with the first that cannot be
-/// made; cancelled. O(sum of the valences).
+/// made (RemovalReplay) or whose error is no number, negative or less than the one before;
+/// cancelled. O(sum of the valences).
 Result<CollapsedMesh> collapse(const TriangleMesh& mesh, std::span<const Removal> removals,
                                const Context& context);
 

@@ -28,10 +28,9 @@ struct ProgressiveFileReport {
 };
 
 /// Writes `mesh` with the removals that make it coarse, the first one first; whole or not at all
-/// (AtomicWriter). Errors: bad_geometry; invalid_argument with the first removal that is no
-/// half-edge collapse of what the ones before it left (vertex or neighbour gone, an edge of no, or
-/// more than two triangles) or whose error falls; unsupported beyond 2^32 corners; io_failure;
-/// cancelled. O(sum of the valences); about 100 bytes a triangle.
+/// (AtomicWriter). Errors: bad_geometry; invalid_argument with the first removal that would not
+/// leave the surface what it is (RemovalReplay) or whose error falls; unsupported beyond 2^32
+/// corners; not_found, io_failure; cancelled. O(sum of the valences); about 100 bytes a triangle.
 Result<ProgressiveFileReport> write_progressive(const std::filesystem::path& path,
                                                 const TriangleMesh& mesh,
                                                 std::span<const Removal> removals,

@@ -162,7 +162,7 @@ VertexSplit& ProgressiveWriter::split_of(std::size_t i) {
   split_.error = i == 0 ? 0 : removals_[i - 1].error + 0.f;  // + 0: no negative zero
   split_.moves.clear();
   const auto for_each_moved = [&](auto use) {
-    for (std::size_t m = step.first_moved; m < collapsed_.steps[i + 1].first_moved; ++m) {
+    for (std::size_t m = i == 0 ? 0 : collapsed_.steps[i - 1].moved_end; m < step.moved_end; ++m) {
       const std::uint32_t corner = collapsed_.moved[m];
       use(corner, 3 * triangle_numbers_[corner / 3] + corner % 3);
     }
