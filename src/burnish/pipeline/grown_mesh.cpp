@@ -7,49 +7,33 @@
 #include <numeric>
 #include <utility>
 
-#include "burnish/core/gather.h"
-
 namespace burnish {
 namespace {
 
-struct Numbered {
-  std::uint32_t index, place;
-};
-
-/// Sorts by index, a digit at a time. O(#items).
-void sort_by_index(std::vector<Numbered>& items) {
-  constexpr int kBits = 11;
-  std::uint32_t highest = 0;
-  for (const Numbered& item : items) highest = std::max(highest, item.index);
-  std::vector<Numbered> sorted(items.size());
-  for (int shift = 0; shift < 32 && highest >> shift > 0; shift += kBits) {
-    const auto digit = [&](const Numbered& item) {
-      return item.index >> shift & ((1u << kBits) - 1);
-    };
-    std::array<std::uint32_t, (1u << kBits) + 1> begin{};
-    for (const Numbered& item : items) ++begin[digit(item) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    for (const Numbered& item : items) sorted[begin[digit(item)]++] = item;
-    items.swap(sorted);
-  }
-}
-
-/// The order in which `indices` rise. Errors: bad_file where two are equal.
+/// The order in which `indices` rise, found a digit at a time. Errors: bad_file where two are
+/// equal. O(#indices).
 Result<std::vector<std::uint32_t>> rising_order(std::vector<std::uint32_t> indices,
                                                 const char* what) {
-  std::vector<Numbered> items;
-  items.reserve(indices.size());
-  for (const std::uint32_t index : indices)
-    items.push_back({index, static_cast<std::uint32_t>(items.size())});
-  sort_by_index(items);
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (i > 0 && items[i].index == items[i - 1].index) {
-      return Error{
-          ErrorCode::bad_file, fmt::format("two {} have number {}", what, items[i].index), {}};
-    }
-    indices[i] = items[i].place;
+  constexpr int kBits = 11;
+  std::uint32_t highest = 0;
+  for (const std::uint32_t index : indices) highest = std::max(highest, index);
+  std::vector<std::uint32_t> order(indices.size());
+  std::vector<std::uint32_t> sorted(indices.size());
+  std::iota(order.begin(), order.end(), 0);
+  for (int shift = 0; shift < 32 && highest >> shift > 0; shift += kBits) {
+    const auto digit = [&](std::uint32_t i) { return indices[i] >> shift & ((1u << kBits) - 1); };
+    std::array<std::uint32_t, (1u << kBits) + 1> begin{};
+    for (const std::uint32_t i : order) ++begin[digit(i) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    for (const std::uint32_t i : order) sorted[begin[digit(i)]++] = i;
+    order.swap(sorted);
   }
-  return indices;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (indices[order[i]] != indices[order[i - 1]]) continue;
+    return Error{
+        ErrorCode::bad_file, fmt::format("two {} have number {}", what, indices[order[i]]), {}};
+  }
+  return order;
 }
 
 std::vector<Triangle> renamed(const TriangleStars& stars, const std::vector<std::uint32_t>& order,
@@ -73,7 +57,7 @@ Result<OrderedMesh> in_original_order(GrownMesh grown, bool whole) {
     result.places.resize(order->size());
     for (std::uint32_t place = 0; place < order->size(); ++place)
       result.places[(*order)[place]] = place;
-    grown.columns.select(*order);
+    grown.columns.reorder(*order);
     result.mesh.positions = std::move(grown.columns.positions());
     result.mesh.attributes = std::move(grown.columns.attributes());
   }
@@ -81,9 +65,8 @@ Result<OrderedMesh> in_original_order(GrownMesh grown, bool whole) {
   if (!order) return order.error();
   result.mesh.triangles = renamed(grown.mesh.stars, *order, result.places);
   grown.mesh.stars = {};
-  const Selection kept(*order);
-  result.mesh.triangle_attributes.origin = kept.of(grown.triangle_origin);
-  if (whole) result.mesh.triangle_attributes.owner = kept.of(grown.triangle_owner);
+  result.mesh.triangle_attributes.origin = reordered(grown.triangle_origin, *order);
+  if (whole) result.mesh.triangle_attributes.owner = reordered(grown.triangle_owner, *order);
   return result;
 }
 

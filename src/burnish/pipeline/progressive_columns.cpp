@@ -126,9 +126,9 @@ bool ProgressiveColumns::append(const std::byte* row) {
          (attributes_.origin.empty() || attributes_.origin.back() <= Origin::invented);
 }
 
-void ProgressiveColumns::select(const Selection& kept) {
-  positions_ = kept.of(positions_);
-  for_each_column(attributes_, [&](auto& column) { column = kept.of(column); });
+void ProgressiveColumns::reorder(std::span<const std::uint32_t> order) {
+  positions_ = reordered(positions_, order);
+  for_each_column(attributes_, [&](auto& column) { column = reordered(column, order); });
 }
 
 void put_row(std::string& bytes, const TriangleMesh& mesh, std::size_t v) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,9 @@ class ProgressiveColumns {
   /// none. Then nothing more may be appended.
   bool append(const std::byte* row);
 
-  /// Keeps the vertices `kept`, in that order; one attribute after the other, to need no memory for
-  /// all of them twice.
-  void select(const Selection& kept);
+  /// Puts the vertices into this order; one attribute after the other, to need no memory for all of
+  /// them twice.
+  void reorder(std::span<const std::uint32_t> order);
 
   std::vector<Vec3f>& positions() { return positions_; }
   Attributes& attributes() { return attributes_; }
@@ -48,6 +49,18 @@ class ProgressiveColumns {
   bool triangle_origin_ = false, triangle_owner_ = false;
   std::size_t row_size_ = 0;
 };
+
+/// values[order[0]], values[order[1]], ...; an empty array stays empty. Without the runs of
+/// gather(): orders of a progressive file have none, and memory for them is what an extraction has
+/// not.
+template <class T>
+std::vector<T> reordered(const std::vector<T>& values, std::span<const std::uint32_t> order) {
+  std::vector<T> result;
+  if (values.empty()) return result;
+  result.reserve(order.size());
+  for (const std::uint32_t i : order) result.push_back(values[i]);
+  return result;
+}
 
 /// Appends the row of vertex `v`.
 void put_row(std::string& bytes, const TriangleMesh& mesh, std::size_t v);
