@@ -33,6 +33,7 @@ using Action = std::function<Result<void>(const Session&, const Context&)>;
 Action add_reconstruct(CLI::App& app);
 Action add_triangulate(CLI::App& app);
 Action add_smooth(CLI::App& app);
+Action add_simplify(CLI::App& app);
 Action add_verify(CLI::App& app);
 Action add_convert(CLI::App& app);
 Action add_measure(CLI::App& app);

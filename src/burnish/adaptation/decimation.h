@@ -28,6 +28,10 @@ class Decimation {
   std::size_t triangles() const { return half_edges_.live_triangles(); }
   /// In the order in which they were made. The error is that of the bound, 0 where there is none.
   const std::vector<Removal>& removals() const { return removals_; }
+  /// How far the surface may be from the original, m; nothing where no bound is kept.
+  std::optional<double> largest_error() const {
+    return bound_ ? std::optional(bound_->largest()) : std::nullopt;
+  }
   std::vector<Removal> take_removals() { return std::move(removals_); }
   /// Per removal how far along the edge, from `into` to `vertex`, their new place is: 0 to 1.
   const std::vector<float>& shares() const { return shares_; }

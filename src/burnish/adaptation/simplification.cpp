@@ -91,11 +91,12 @@ const Schema<SimplifyParams>& SimplifyParams::schema() {
 }
 
 Facts SimplifyReport::facts() const {
-  return {{"triangles_before", static_cast<double>(triangles_before), ""},
-          {"triangles", static_cast<double>(triangles), ""},
-          {"removed_vertices", static_cast<double>(removed_vertices), ""},
-          {"target_reached", target_reached ? 1. : 0., ""},
-          {"error_bound", error_bound, "m"}};
+  Facts facts{{"triangles_before", static_cast<double>(triangles_before), ""},
+              {"triangles", static_cast<double>(triangles), ""},
+              {"removed_vertices", static_cast<double>(removed_vertices), ""},
+              {"target_reached", target_reached ? 1. : 0., ""}};
+  if (error_bound) facts.push_back({"error_bound", *error_bound, "m"});
+  return facts;
 }
 
 Result<SimplifyReport> simplify(TriangleMesh& mesh, Placement placement,
@@ -118,7 +119,7 @@ Result<SimplifyReport> simplify(TriangleMesh& mesh, Placement placement,
   report.triangles = result.triangles.size();
   report.removed_vertices = mesh.positions.size() - result.positions.size();
   report.target_reached = target == 0 || result.triangles.size() <= target;
-  if (!decimation.removals().empty()) report.error_bound = decimation.removals().back().error;
+  report.error_bound = decimation.largest_error();
   std::swap(mesh, result);
   context.progress(1);
   return report;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "burnish/base/context.h"
 #include "burnish/base/facts.h"
 #include "burnish/base/schema.h"
@@ -27,7 +29,8 @@ struct SimplifyReport {
   std::size_t triangles_before = 0, triangles = 0;
   std::size_t removed_vertices = 0;
   bool target_reached = true;  ///< false: what is left cannot go without harm, or by its bound
-  double error_bound = 0;      ///< how far the surfaces may be from each other, m; 0: not kept
+  std::optional<double> error_bound;  ///< how far the surfaces may be from each other, m, where
+                                      ///< that was to be bounded
 
   Facts facts() const;
 };

@@ -82,6 +82,24 @@ auto create(std::string_view verb, const Result<const Op*>& operation, const T& 
                  : Result<Made>(std::move(created).error());
 }
 
+/// Keeps the mesh at the moments that a report shows, where one is wanted.
+class Phases {
+ public:
+  Phases(const TriangleMesh& mesh, bool wanted, Record& record)
+      : mesh_(mesh), wanted_(wanted), record_(record) {
+    keep("original");
+  }
+  void keep(std::string name) {
+    if (wanted_) record_.phases.push_back({std::move(name), mesh_, {}});
+  }
+  void keep_after(std::size_t method) { keep(fmt::format("phase {}", method + 1)); }
+
+ private:
+  const TriangleMesh& mesh_;
+  bool wanted_;
+  Record& record_;
+};
+
 /// The record's line on a region to smooth.
 Step confining(const Region& region, const std::vector<float>& weights) {
   const auto free =
@@ -160,6 +178,20 @@ Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods,
   return edit("repair", mesh, methods, find_repair, record, context);
 }
 
+Result<void> simplify_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                                bool keep_phases, Record& record, const Context& context) {
+  Phases phases(mesh, keep_phases, record);
+  return run_all(
+      "simplify", methods, find_simplify, record, context,
+      [&mesh](const SimplifyOperation& operation, const Settings& settings, const Context& share) {
+        return operation.run(mesh, settings, share);
+      },
+      [&phases](std::size_t i) {
+        phases.keep_after(i);
+        return Result<void>();
+      });
+}
+
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
                               const SmoothingLimits& limits, bool keep_phases, Record& record,
                               const Context& context) {
@@ -175,10 +207,7 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
     if (auto known = check_noise(mesh); !known) return in_bound(known.error());
     before = mesh;
   }
-  const auto keep_phase = [&](std::string name) {
-    if (keep_phases) record.phases.push_back({std::move(name), mesh, {}});
-  };
-  keep_phase("original");
+  Phases phases(mesh, keep_phases, record);
   const auto smooth = [&](const SmoothOperation& operation, const Settings& settings,
                           const Context& share) {
     if (!limits.region) return operation.run(mesh, settings, share);
@@ -191,7 +220,7 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
     if (limits.bound) {
       if (auto done = put_back(before, mesh, *limits.bound, record, silent); !done) return done;
     }
-    keep_phase(fmt::format("phase {}", i + 1));
+    phases.keep_after(i);
     return {};
   };
   if (auto done = run_all("smooth", methods, find_smooth, record, context, smooth, after_phase);
