@@ -59,7 +59,8 @@ inline void random_operation(AdaptiveMesh& adaptive, const TriangleMesh& origina
   if (which == 13) adaptive.to_error(error);
   if (which == 14) adaptive.to_triangles(random.below(original.triangles.size() + 1));
   if (which == 15) {
-    done = adaptive.focus(inside, {.outside_triangles = random.below(original.triangles.size())});
+    done =
+        adaptive.focus(inside, {.outside_triangles = random.below(original.triangles.size() + 1)});
   }
   if (!done) std::abort();
 }
@@ -128,6 +129,17 @@ inline void expect_adaptive_mesh_keeps_promises(const TriangleMesh& mesh, std::u
   require_of_adaptive_mesh(adaptive->mesh() == plain.mesh(), "a level is the log's beginning");
   adaptive->restore();
   require_of_adaptive_mesh(adaptive->mesh() == mesh, "all comes back, bit for bit");
+
+  adaptive->to_removals(count);
+  adaptive->remember_detail();
+  for (int i = 0; i < operations; ++i) random_operation(*adaptive, mesh, 12, random);
+  adaptive->restore();
+  const TriangleMesh back = adaptive->mesh();
+  require_of_adaptive_mesh(back.triangles == mesh.triangles, "triangles come back with detail");
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const double off = norm(Vec3d(back.positions[v]) - Vec3d(mesh.positions[v]));
+    require_of_adaptive_mesh(off <= 1e-5, "vertices come back with detail to within rounding");
+  }
 }
 
 }  // namespace burnish::test

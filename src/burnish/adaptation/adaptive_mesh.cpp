@@ -51,8 +51,8 @@ void AdaptiveMesh::make_removal(std::uint32_t removal) {
   states_[removal] = State::made;
   if (!details_.empty()) {
     const auto& p = original_.positions;
-    details_[removal] = into_frame(star_frame(p, original_.triangles, left, into),
-                                   Vec3d(p[vertex]) - Vec3d(p[into]));
+    const StarFrame frame = star_frame(p, original_.triangles, left, into);
+    details_[removal] = frame.into(Vec3d(p[vertex]) - Vec3d(p[into]));
   }
 }
 
@@ -62,8 +62,8 @@ void AdaptiveMesh::undo_removal(std::uint32_t removal) {
   const auto left = left_of(star);
   if (!details_.empty()) {
     auto& p = original_.positions;
-    p[vertex] = Vec3f(Vec3d(p[into]) + out_of_frame(star_frame(p, original_.triangles, left, into),
-                                                    details_[removal]));
+    const StarFrame frame = star_frame(p, original_.triangles, left, into);
+    p[vertex] = Vec3f(Vec3d(p[into]) + frame.out_of(details_[removal]));
   }
   if (star.shape != StarShape::ear) {
     for (const std::uint32_t t : left) rename_corner(original_.triangles[t], into, vertex);

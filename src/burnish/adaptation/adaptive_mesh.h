@@ -91,7 +91,7 @@ class AdaptiveMesh {
   // triangles that are there without it (offset from the vertex it went into, in a frame of their
   // mean normal and an edge), so that it follows when they were moved, turned or bent. Where
   // nothing was moved that is its place to within the rounding of float. Where those triangles have
-  // no area, the offset keeps its length but not its direction.
+  // no area, the offset keeps its direction in space.
 
   /// From now on vertices come back with their detail: those that are removed, as of where they
   /// are now, and each that will be, as of when it is. Call it before an edit. O(#V + #T) the first

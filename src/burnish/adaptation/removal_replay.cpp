@@ -107,7 +107,7 @@ Result<StarShape> RemovalReplay::order_star(const Removal& removal) {
 /// Whether all that the two vertices have in common are their triangles; finds the one beyond an
 /// ear.
 Result<void> RemovalReplay::check_link(const Removal& removal, StarShape shape) {
-  const auto [v, into, error] = removal;
+  const std::uint32_t v = removal.vertex, into = removal.into;
   const std::uint32_t left = corner_beside(ordered_.front(), v, into);
   const std::uint32_t right =
       shape == StarShape::closed ? corner_beside(ordered_[1], v, into) : left;

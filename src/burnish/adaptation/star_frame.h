@@ -2,44 +2,43 @@
 
 #include <span>
 
-#include "burnish/base/tangent_frame.h"
 #include "burnish/core/triangle_mesh.h"
 
 namespace burnish {
 
-/// A right-handed frame that moves with some triangles around the vertex `apex`: its normal is
-/// their mean by area, `u` points towards the corner after `apex` of the middle one, as far as that
-/// is across the normal. Where they have no area the frame is of no meaning, but orthonormal.
-inline TangentFrame star_frame(std::span<const Vec3f> positions,
-                               std::span<const Triangle> all_triangles,
-                               std::span<const std::uint32_t> star, std::uint32_t apex) {
-  const auto at = [&](std::uint32_t v) { return Vec3d(positions[v]); };
+/// A right-handed orthonormal frame.
+struct StarFrame {
+  Vec3d u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
+
+  Vec3d into(const Vec3d& d) const { return {dot(u, d), dot(v, d), dot(normal, d)}; }
+  Vec3d out_of(const Vec3d& d) const { return u * d.x + v * d.y + normal * d.z; }
+};
+
+/// A frame that moves with some triangles around the vertex `apex`: its normal is their mean by
+/// area, `u` points towards the corner after `apex` of the middle one, as far as that is across the
+/// normal. The axes of space where rounding would decide on one of the two.
+inline StarFrame star_frame(std::span<const Vec3f> positions, std::span<const Triangle> triangles,
+                            std::span<const std::uint32_t> star, std::uint32_t apex) {
+  constexpr double kRounding = 1e-10;  // of sums of products of floats, in double, with room
+  const auto at = [&](std::uint32_t vertex) { return Vec3d(positions[vertex]); };
   Vec3d area{};
+  double size = 0;
   for (const std::uint32_t t : star) {
-    const auto [a, b, c] = all_triangles[t];
-    area += cross(at(b) - at(a), at(c) - at(a));
+    const auto [a, b, c] = triangles[t];
+    const Vec3d side = at(b) - at(a), other = at(c) - at(a);
+    area += cross(side, other);
+    size += squared_norm(side) + squared_norm(other);
   }
+  if (norm(area) <= kRounding * size) return {};
   const Vec3d normal = normalized(area);
-  TangentFrame frame(normal == Vec3d{} ? Vec3d{0, 0, 1} : normal);
-  const Triangle& middle = all_triangles[star[star.size() / 2]];
-  const std::uint32_t towards = middle[0] == apex   ? middle[1]
-                                : middle[1] == apex ? middle[2]
-                                                    : middle[0];
-  const Vec3d along = at(towards) - at(apex);
-  const Vec3d across = along - frame.normal * dot(along, frame.normal);
-  // What rounding left of it would not be across.
-  if (squared_norm(across) <= 1e-12 * squared_norm(along)) return frame;
-  frame.u = normalized(across);
-  frame.v = cross(frame.normal, frame.u);
-  return frame;
-}
 
-inline Vec3d into_frame(const TangentFrame& frame, const Vec3d& d) {
-  return {dot(frame.u, d), dot(frame.v, d), dot(frame.normal, d)};
-}
-
-inline Vec3d out_of_frame(const TangentFrame& frame, const Vec3d& d) {
-  return frame.u * d.x + frame.v * d.y + frame.normal * d.z;
+  const Triangle& middle = triangles[star[star.size() / 2]];
+  const std::size_t corner = middle[0] == apex ? 0 : middle[1] == apex ? 1 : 2;
+  const Vec3d along = at(middle[(corner + 1) % 3]) - at(apex);
+  const Vec3d across = along - normal * dot(along, normal);
+  if (squared_norm(across) <= kRounding * size) return {};
+  const Vec3d u = normalized(across);
+  return {u, cross(normal, u), normal};
 }
 
 }  // namespace burnish
