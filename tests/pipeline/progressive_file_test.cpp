@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <fstream>
 
+#include "burnish/io/crc32.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/shapes/shapes.h"
 #include "io/samples.h"
 #include "support/plain_removals.h"
 #include "support/progress.h"
+#include "support/progressive_promises.h"
 #include "support/random_mesh.h"
 
 namespace burnish {
@@ -215,6 +217,44 @@ TEST(ProgressiveFile, RefusesEveryChangeOfAByteWithItsPlace) {
   }
 }
 
+/// The bytes with checks that agree, where `ends` are the ends of the levels.
+std::string with_checks(std::string bytes, const std::vector<std::size_t>& ends) {
+  Crc32 crc;
+  std::size_t done = 0;
+  const auto set = [&](std::size_t end, std::size_t size) {
+    crc.add(bytes.data() + done, end - size - done);
+    done = end - size;
+    const std::uint32_t value = crc.value();
+    std::memcpy(bytes.data() + done, &value, size);
+  };
+  for (const std::size_t end : ends) set(end, end == ends.front() || end == bytes.size() ? 4 : 2);
+  return bytes;
+}
+
+TEST(ProgressiveFile, GivesASoundMeshOrAnErrorWhereChangedBytesHaveAgreeingChecks) {
+  Random random(1);
+  for (const Sample& sample : small_samples()) {
+    SCOPED_TRACE(sample.name);
+    const std::string bytes = written(sample);
+    std::vector<std::size_t> ends;
+    for (std::size_t i = 0; i <= sample.removals.size(); ++i) {
+      const std::uint64_t wanted = level_after(sample, i).mesh.triangles.size();
+      const auto level = parsed(bytes, {.triangles = wanted, .error = {}});
+      ASSERT_TRUE(level);
+      ends.push_back(level->bytes_read);
+    }
+    if (sample.removals.empty() || ends.back() != bytes.size()) ends.push_back(bytes.size());
+    ASSERT_EQ(with_checks(bytes, ends), bytes);
+    for (int i = 0; i < 2000; ++i) {
+      std::string changed = bytes;
+      changed[random.below(bytes.size())] = static_cast<char>(random.next());
+      changed = with_checks(changed, ends);
+      const std::vector<char> exact(changed.begin(), changed.end());
+      test::expect_progressive_promises_kept({exact.data(), exact.size()});
+    }
+  }
+}
+
 TEST(ProgressiveFile, ReadsTheFinestLevelOfSoManyTriangles) {
   const Sample sample = sample_of("grid", make_grid(9, 9));  // splits of one triangle and of two
   const std::string bytes = written(sample);
@@ -294,8 +334,11 @@ TEST(ProgressiveFile, IsSmallerThanThePlyOfTheOriginal) {
   const test::TemporaryFolder folder;
   const auto expect_smaller = [&](const Sample& sample) {
     ASSERT_TRUE(write_mesh(folder / "mesh.ply", sample.mesh));
-    EXPECT_LT(written(sample).size(), std::filesystem::file_size(folder / "mesh.ply"))
-        << sample.name;
+    const auto report = write_progressive(folder / "mesh.bpm", sample.mesh, sample.removals);
+    ASSERT_TRUE(report);
+    const std::string ply = test::slurp(folder / "mesh.ply");
+    EXPECT_LT(report->bytes, ply.size()) << sample.name;
+    EXPECT_EQ(report->ply_bytes, ply.size() - ply.find("end_header\n") - 11) << sample.name;
   };
   for (const Sample& sample : small_samples()) expect_smaller(sample);
   expect_smaller(sample_of("in no order", shuffled(make_torus(1, 0.4, 100, 60), 1)));

@@ -21,8 +21,9 @@ namespace burnish {
 struct ProgressiveFileReport {
   std::uint64_t vertices = 0, triangles = 0;  ///< of the original
   std::uint64_t coarse_vertices = 0, coarse_triangles = 0;
-  float coarse_error = 0;   ///< m
-  std::uint64_t bytes = 0;  ///< of the file
+  float coarse_error = 0;       ///< m
+  std::uint64_t bytes = 0;      ///< of the file
+  std::uint64_t ply_bytes = 0;  ///< of the original's vertices and triangles in a binary PLY
 
   Facts facts() const;
 };

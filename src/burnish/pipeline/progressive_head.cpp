@@ -41,9 +41,11 @@ class HeadReader {
 };
 
 Result<void> HeadReader::read_magic() {
+  const Cursor::Place begin = cursor_.place();
   const std::byte* magic = cursor_.take(kProgressiveMagic.size());
   if (!magic || !std::equal(kProgressiveMagic.begin(), kProgressiveMagic.end(),
                             reinterpret_cast<const char*>(magic))) {
+    cursor_.go_to(begin);
     return cursor_.byte_error("the file is no progressive mesh of burnish");
   }
   std::uint8_t version = 0;

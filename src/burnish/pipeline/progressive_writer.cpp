@@ -57,6 +57,7 @@ class ProgressiveWriter {
   Result<ProgressiveFileReport> write();
 
  private:
+  std::uint64_t bytes_as_ply() const;
   void put_head();
   void put_coarse_vertices();
   void put_coarse_triangles();
@@ -198,11 +199,21 @@ void ProgressiveWriter::put_record(std::size_t removal) {
   count_vertex();
 }
 
+/// As write_ply has it: positions in double where there is a frame.
+std::uint64_t ProgressiveWriter::bytes_as_ply() const {
+  const bool framed = original_.frame.origin != Vec3d{};
+  const std::uint64_t vertex = columns_.row_size() + (framed ? sizeof(Vec3d) - sizeof(Vec3f) : 0);
+  const std::uint64_t triangle = 1 + sizeof(Triangle) + (columns_.triangle_origin() ? 1 : 0) +
+                                 (columns_.triangle_owner() ? sizeof(std::uint32_t) : 0);
+  return report_.vertices * vertex + report_.triangles * triangle;
+}
+
 Result<ProgressiveFileReport> ProgressiveWriter::write() {
   report_.vertices = original_.positions.size();
   report_.triangles = original_.triangles.size();
   report_.coarse_vertices = report_.vertices - removals_.size();
   for (const std::uint8_t gone : collapsed_.triangle_gone) report_.coarse_triangles += gone == 0;
+  report_.ply_bytes = bytes_as_ply();
   error_ = report_.coarse_error = removals_.empty() ? 0 : removals_.back().error + 0.f;
   mesh_.reserve(report_.vertices, report_.triangles);
   vertex_numbers_.resize(report_.vertices);
@@ -226,7 +237,8 @@ Facts ProgressiveFileReport::facts() const {
           {"coarse_vertices", static_cast<double>(coarse_vertices), ""},
           {"coarse_triangles", static_cast<double>(coarse_triangles), ""},
           {"coarse_error", coarse_error, "m"},
-          {"bytes", static_cast<double>(bytes), ""}};
+          {"bytes", static_cast<double>(bytes), ""},
+          {"ply_bytes", static_cast<double>(ply_bytes), ""}};
 }
 
 Result<ProgressiveFileReport> write_progressive(const std::filesystem::path& path,
