@@ -117,7 +117,7 @@ TEST_F(Progressive, SaysWhereAFileIsDamagedAndWhatCanBeHad) {
 
 TEST(ProgressiveInterrupt, LeavesNoHalfFile) {
   const test::TemporaryFolder folder;
-  ASSERT_TRUE(write_mesh(folder / "sphere.ply", make_sphere(0.1, 8)));
+  ASSERT_TRUE(write_mesh(folder / "sphere.ply", make_sphere(0.1, 7)));
   const test::Outcome outcome =
       burnish({"progressive", folder / "sphere.ply", "-o", folder / "sphere.bpm"}, 300);
   EXPECT_EQ(outcome.status, 130);

@@ -435,6 +435,14 @@ TEST(ProgressiveFile, ClaimsNothingThatItDoesNotHave) {
       << level.error().text();
 }
 
+TEST(ProgressiveFile, EachSeedOfItsFuzzerIsOne) {
+  const auto seeds = test::source_folder() / "fuzz" / "seeds" / "progressive";
+  for (const auto& entry : std::filesystem::directory_iterator(seeds)) {
+    const auto level = parsed(test::slurp(entry.path()));
+    EXPECT_TRUE(level) << entry.path() << ": " << level.error().text();
+  }
+}
+
 TEST(ProgressiveFile, OfTheBunnyIsTheBunny) {
   BURNISH_DATA_OR_SKIP(path, "stanford/bunny_3485v.off");
   auto mesh = read_mesh(path);
