@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <fstream>
 
+#include "burnish/adaptation/point_removal.h"
 #include "burnish/io/crc32.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/shapes/shapes.h"
 #include "io/samples.h"
+#include "support/peak_memory.h"
 #include "support/plain_removals.h"
 #include "support/progress.h"
 #include "support/progressive_promises.h"
@@ -353,6 +355,26 @@ TEST(ProgressiveFile, IsReadInProportionToTheLevel) {
     ASSERT_TRUE(level);
     // A row of 12 bytes and at most 26 of record per vertex, and the head.
     EXPECT_LT(level->bytes_read, 38 * level->mesh.positions.size() + 100);
+  }
+}
+
+TEST(ProgressiveFile, TakesFortyBytesATriangleBesidesTheLevel) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers have memory of their own";
+#endif
+  const TriangleMesh mesh = make_torus(1, 0.4, 300, 200);
+  const auto removals = removal_log(mesh);
+  ASSERT_TRUE(removals);
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(write_progressive(folder / "mesh.bpm", mesh, *removals));
+  // What a process has once, large pages rounded up among it, does not grow with the level.
+  constexpr std::size_t kAllowance = std::size_t{3} << 20;
+  for (const std::uint64_t triangles : {60000, 120000}) {
+    const ProgressiveStop stop{triangles, {}};
+    const std::size_t peak = test::peak_memory_of(
+        [&] { return read_progressive(folder / "mesh.bpm", stop).has_value(); });
+    const std::size_t level = triangles * sizeof(Triangle) + triangles / 2 * sizeof(Vec3f);
+    EXPECT_LE(peak, kAllowance + level + 40 * triangles);
   }
 }
 
