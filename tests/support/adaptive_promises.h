@@ -5,6 +5,7 @@
 #include <span>
 
 #include "burnish/adaptation/adaptive_mesh.h"
+#include "burnish/adaptation/point_removal.h"
 #include "burnish/core/topology.h"
 #include "support/plain_removals.h"
 
@@ -104,11 +105,11 @@ inline void require_of_adaptive_mesh(bool kept, const char* what) {
   std::abort();
 }
 
-/// What an adaptive mesh promises, through a chain of random operations on `mesh` with a random
-/// log. Ends the process where it is broken, as fuzzers want it.
-inline void expect_adaptive_mesh_keeps_promises(const TriangleMesh& mesh, std::uint64_t seed,
+/// What an adaptive mesh promises, through a chain of random operations on `mesh` with `log`. Ends
+/// the process where it is broken, as fuzzers want it.
+inline void expect_adaptive_mesh_keeps_promises(const TriangleMesh& mesh,
+                                                const std::vector<Removal>& log, std::uint64_t seed,
                                                 int operations) {
-  const std::vector<Removal> log = random_removals(mesh, mesh.positions.size(), seed);
   auto adaptive = AdaptiveMesh::make(mesh, log);
   require_of_adaptive_mesh(adaptive.has_value(), "a legal log is taken");
   const SurfaceKind kind(mesh);
@@ -140,6 +141,16 @@ inline void expect_adaptive_mesh_keeps_promises(const TriangleMesh& mesh, std::u
     const double off = norm(Vec3d(back.positions[v]) - Vec3d(mesh.positions[v]));
     require_of_adaptive_mesh(off <= 1e-5, "vertices come back with detail to within rounding");
   }
+}
+
+/// The same with a random log, and with that of point removal.
+inline void expect_adaptive_mesh_keeps_promises(const TriangleMesh& mesh, std::uint64_t seed,
+                                                int operations) {
+  const std::vector<Removal> by_chance = random_removals(mesh, mesh.positions.size(), seed);
+  expect_adaptive_mesh_keeps_promises(mesh, by_chance, seed, operations);
+  const auto by_error = removal_log(mesh);
+  require_of_adaptive_mesh(by_error.has_value(), "points can be removed from any mesh");
+  expect_adaptive_mesh_keeps_promises(mesh, *by_error, seed, operations);
 }
 
 }  // namespace burnish::test
