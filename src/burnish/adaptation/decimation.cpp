@@ -22,7 +22,9 @@ constexpr float kAnyCost = std::numeric_limits<float>::max();
 /// planes leave a place open.
 constexpr double kCornerWeight = 1e-6;
 /// The weight of a plane across the surface along a boundary, of the square of the edge's length.
-constexpr double kBoundaryWeight = 10;
+constexpr double kBoundaryWeight = 20;
+/// The share of the planes around a vertex, beside those that it remembers.
+constexpr double kPresent = 0.8;
 /// The cosine of how far a triangle may turn.
 constexpr double kLeastCosine = 0.2;
 /// The share of the vertices that go in a round: fewer come closer to the order of their costs,
@@ -82,23 +84,23 @@ void Decimation::add_triangle_quadrics(const TriangleMesh& mesh) {
 Decimation::Candidate Decimation::best(Index h) const {
   const Index a = half_edges_.origin(h), b = half_edges_.head(h);
   const HalfEdges::Merge may = half_edges_.ends_that_may_go(h);
-  Candidate best{std::numeric_limits<double>::infinity(), {}, false};
+  Candidate best{std::numeric_limits<double>::infinity(), {}, false, false};
   if (!may.possible()) return best;
   const Quadric q = quadrics_[a] + quadrics_[b];
   const bool inner = half_edges_.kind(a) == HalfEdges::Kind::inner &&
                      half_edges_.kind(b) == HalfEdges::Kind::inner;
   if (placement_ == Placement::optimal && inner) {
     const Vec3d at = q.least();
-    best = {std::max(0., q(at)), static_cast<Vec3f>(at + centre_), false};
+    best = {std::max(0., q(at)), static_cast<Vec3f>(at + centre_), false, true};
     if (is_finite(best.position)) return best;
     best.cost = std::numeric_limits<double>::infinity();
   }
   if (may.origin_may_go) {
-    best = {std::max(0., q(place(b) - centre_)), positions_[b], false};
+    best = {std::max(0., q(place(b) - centre_)), positions_[b], false, false};
   }
   if (may.head_may_go) {
     const double cost = std::max(0., q(place(a) - centre_));
-    if (cost < best.cost) best = {cost, positions_[a], true};
+    if (cost < best.cost) best = {cost, positions_[a], true, false};
   }
   return best;
 }
@@ -185,8 +187,53 @@ bool Decimation::folds(Index h, const Candidate& candidate) const {
   return (a_moves && folds_around(a, b, to)) || (b_moves && folds_around(b, a, to));
 }
 
+/// The plane of the triangle of `h` and, with little weight, its centre.
+Quadric Decimation::quadric_of(Index h, Vec3d& area, double& volume) const {
+  const Vec3d x = place(half_edges_.origin(h)) - centre_;
+  const Vec3d y = place(half_edges_.head(h)) - centre_;
+  const Vec3d z = place(half_edges_.apex(h)) - centre_;
+  const Vec3d twice_area = cross(y - x, z - x);
+  area += twice_area;
+  volume += dot(twice_area, x);
+  const double length = norm(twice_area);
+  if (length == 0) return {};
+  return Quadric::plane(twice_area / length, dot(twice_area, x) / length, length / 2) +
+         Quadric::point((x + y + z) / 3., length / 2 * kCornerWeight);
+}
+
+/// Where the ends of an inner edge become one: nearest to the planes of the triangles around them
+/// as they are now, of all places that leave the volume under the surface what it is (Lindstrom and
+/// Turk 1998, section 4). Planes of triangles that are gone would draw it outwards of what is
+/// round.
+Vec3f Decimation::place_keeping_volume(Index h) const {
+  const Index a = half_edges_.origin(h), b = half_edges_.head(h);
+  Vec3d area{};
+  double volume = 0;
+  Quadric around{};
+  half_edges_.for_each_from(a, [&](Index from) { around += quadric_of(from, area, volume); });
+  half_edges_.for_each_from(b, [&](Index from) {
+    if (half_edges_.head(from) == a || half_edges_.apex(from) == a) return;
+    around += quadric_of(from, area, volume);
+  });
+  const Vec3d at = around.least_on(area, volume);
+  return static_cast<Vec3f>(at + centre_);
+}
+
+/// What the two ends of a collapsed edge stood for, and what is around the vertex that they became:
+/// the first alone remembers planes where no surface is, the second alone forgets how far it is
+/// from where it began.
+Quadric Decimation::quadric_after(Index stays, const Quadric& remembered) const {
+  if (half_edges_.kind(stays) != HalfEdges::Kind::inner) return remembered;
+  Vec3d area{};
+  double volume = 0;
+  Quadric around{};
+  half_edges_.for_each_from(stays, [&](Index h) { around += quadric_of(h, area, volume); });
+  return around * kPresent + remembered * (1 - kPresent);
+}
+
 bool Decimation::try_collapse(Index h) {
-  const Candidate candidate = best(h);
+  Candidate candidate = best(h);
+  if (candidate.moves) candidate.position = place_keeping_volume(h);
   if (!half_edges_.keeps_surface(h) || folds(h, candidate)) return false;
   const Collapse collapse{h, candidate.head_goes, candidate.position};
   if (bound_ && !bound_->accept(half_edges_, positions_, collapse)) return false;
@@ -207,7 +254,7 @@ void Decimation::make(const Collapse& collapse) {
   join_costs(collapse.half_edge);
   half_edges_.collapse(collapse.half_edge, collapse.head_goes);
   positions_[stays] = collapse.position;
-  quadrics_[stays] += quadrics_[goes];
+  quadrics_[stays] = quadric_after(stays, quadrics_[stays] + quadrics_[goes]);
   state_[stays] |= kMerged;
   half_edges_.for_each_from(stays, [&](Index from) {
     state_[half_edges_.head(from)] |= kRingChanged;

@@ -49,6 +49,7 @@ class Decimation {
     double cost;
     Vec3f position;
     bool head_goes;
+    bool moves;  ///< to a place that is neither end's
   };
   /// The cost of an edge that could not collapse as things were around it.
   static constexpr float kHindered = -1;
@@ -67,6 +68,9 @@ class Decimation {
   bool renew_costs(std::span<const Index> edges, const Context& context);
   Result<std::vector<Choice>> cheapest(float limit, const Context& context);
   void join_costs(Index collapsing);
+  Quadric quadric_of(Index h, Vec3d& area, double& volume) const;
+  Vec3f place_keeping_volume(Index h) const;
+  Quadric quadric_after(Index stays, const Quadric& remembered) const;
   bool folds(Index h, const Candidate& candidate) const;
   bool folds_around(Index v, Index other, const Vec3d& moved_to) const;
   void collapse_all(const std::vector<Choice>& chosen, std::size_t target);
