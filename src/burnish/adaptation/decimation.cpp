@@ -81,28 +81,31 @@ void Decimation::add_triangle_quadrics(const TriangleMesh& mesh) {
   }
 }
 
-Decimation::Candidate Decimation::best(Index h) const {
+bool Decimation::places_freely(Index h) const {
+  return placement_ == Placement::optimal &&
+         half_edges_.kind(half_edges_.origin(h)) == HalfEdges::Kind::inner &&
+         half_edges_.kind(half_edges_.head(h)) == HalfEdges::Kind::inner;
+}
+
+/// Which end should rather go, if one may.
+Decimation::End Decimation::end_that_goes(Index h) const {
   const Index a = half_edges_.origin(h), b = half_edges_.head(h);
   const HalfEdges::Merge may = half_edges_.ends_that_may_go(h);
-  Candidate best{std::numeric_limits<double>::infinity(), {}, false, false};
-  if (!may.possible()) return best;
   const Quadric q = quadrics_[a] + quadrics_[b];
-  const bool inner = half_edges_.kind(a) == HalfEdges::Kind::inner &&
-                     half_edges_.kind(b) == HalfEdges::Kind::inner;
-  if (placement_ == Placement::optimal && inner) {
-    const Vec3d at = q.least();
-    best = {std::max(0., q(at)), static_cast<Vec3f>(at + centre_), false, true};
-    if (is_finite(best.position)) return best;
-    best.cost = std::numeric_limits<double>::infinity();
-  }
-  if (may.origin_may_go) {
-    best = {std::max(0., q(place(b) - centre_)), positions_[b], false, false};
-  }
+  End end{std::numeric_limits<double>::infinity(), false};
+  if (may.origin_may_go) end = {std::max(0., q(place(b) - centre_)), false};
   if (may.head_may_go) {
     const double cost = std::max(0., q(place(a) - centre_));
-    if (cost < best.cost) best = {cost, positions_[a], true, false};
+    if (cost < end.cost) end = {cost, true};
   }
-  return best;
+  return end;
+}
+
+float Decimation::cost_of(Index h) const {
+  if (!places_freely(h)) return static_cast<float>(end_that_goes(h).cost);
+  const Quadric q = quadrics_[half_edges_.origin(h)] + quadrics_[half_edges_.head(h)];
+  const auto cost = static_cast<float>(std::max(0., q(q.least())));
+  return std::isfinite(cost) ? cost : kNever;
 }
 
 /// Of all edges.
@@ -111,7 +114,7 @@ bool Decimation::find_costs(const Context& context) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const auto h = static_cast<Index>(i);
       const bool stands_for_edge = half_edges_.twin(h) > h;  // kNone is the largest
-      costs_[h] = stands_for_edge ? static_cast<float>(best(h).cost) : kNever;
+      costs_[h] = stands_for_edge ? cost_of(h) : kNever;
     }
   });
 }
@@ -139,7 +142,7 @@ bool Decimation::renew_costs(std::span<const Index> edges, const Context& contex
     for (const Index h : edges.subspan(range.begin, range.end - range.begin)) {
       const bool hindered = costs_[h] == kHindered;
       if (hindered && !state_[half_edges_.origin(h)] && !state_[half_edges_.head(h)]) continue;
-      if (hindered || stale_[h]) costs_[h] = static_cast<float>(best(h).cost);
+      if (hindered || stale_[h]) costs_[h] = cost_of(h);
       stale_[h] = false;
     }
   });
@@ -179,11 +182,11 @@ bool Decimation::folds_around(Index v, Index other, const Vec3d& moved_to) const
   return folds;
 }
 
-bool Decimation::folds(Index h, const Candidate& candidate) const {
-  const Index a = half_edges_.origin(h), b = half_edges_.head(h);
-  const Vec3d to = static_cast<Vec3d>(candidate.position);
-  const bool a_moves = candidate.position != positions_[a];
-  const bool b_moves = candidate.position != positions_[b];
+bool Decimation::folds(const Collapse& collapse) const {
+  const Index a = half_edges_.origin(collapse.half_edge), b = half_edges_.head(collapse.half_edge);
+  const Vec3d to = static_cast<Vec3d>(collapse.position);
+  const bool a_moves = collapse.position != positions_[a];
+  const bool b_moves = collapse.position != positions_[b];
   return (a_moves && folds_around(a, b, to)) || (b_moves && folds_around(b, a, to));
 }
 
@@ -231,11 +234,20 @@ Quadric Decimation::quadric_after(Index stays, const Quadric& remembered) const 
   return around * kPresent + remembered * (1 - kPresent);
 }
 
+/// Where a bound is kept, an end is a second choice: surfaces move less then.
 bool Decimation::try_collapse(Index h) {
-  Candidate candidate = best(h);
-  if (candidate.moves) candidate.position = place_keeping_volume(h);
-  if (!half_edges_.keeps_surface(h) || folds(h, candidate)) return false;
-  const Collapse collapse{h, candidate.head_goes, candidate.position};
+  if (!half_edges_.keeps_surface(h)) return false;
+  if (places_freely(h)) {
+    if (make_if_allowed({h, false, place_keeping_volume(h)})) return true;
+    if (!bound_) return false;
+  }
+  const bool head_goes = end_that_goes(h).head_goes;
+  const Index stays = head_goes ? half_edges_.origin(h) : half_edges_.head(h);
+  return make_if_allowed({h, head_goes, positions_[stays]});
+}
+
+bool Decimation::make_if_allowed(const Collapse& collapse) {
+  if (folds(collapse)) return false;
   if (bound_ && !bound_->accept(half_edges_, positions_, collapse)) return false;
   make(collapse);
   return true;
