@@ -123,16 +123,18 @@ bool Decimation::find_costs(const Context& context) {
 /// bits of their costs, so that it does not matter in what order the edges come.
 float Decimation::cost_of_cheapest(std::size_t count) const {
   constexpr std::uint32_t kOneIn = 16;
-  std::vector<float> some;
-  some.reserve(costs_.size() / kOneIn);
+  // Here and below all are written and few are kept: a branch that cannot be foretold takes longer.
+  LargeVector<float> some(costs_.size());
+  std::size_t found = 0;
   for (const float cost : costs_) {
-    if (std::bit_cast<std::uint32_t>(cost) % kOneIn == 0 && cost >= 0 && cost != kNever) {
-      some.push_back(cost);
-    }
+    some[found] = cost;
+    const bool in_sample = std::bit_cast<std::uint32_t>(cost) % kOneIn == 0;
+    found += in_sample & (cost >= 0) & (cost != kNever);
   }
   const std::size_t rank = count / kOneIn;
-  if (rank >= some.size()) return kAnyCost;
-  std::nth_element(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(rank), some.end());
+  if (rank >= found) return kAnyCost;
+  const auto at = [&some](std::size_t i) { return some.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(some.begin(), at(rank), at(found));
   return some[rank];
 }
 
@@ -152,10 +154,13 @@ bool Decimation::renew_costs(std::span<const Index> edges, const Context& contex
 /// cost before one of its ends was merged is less than what it costs now: such costs are found anew
 /// only once they are among the cheapest.
 Result<std::vector<Decimation::Choice>> Decimation::cheapest(float limit, const Context& context) {
-  std::vector<Index> edges;
+  LargeVector<Index> edges(costs_.size());
+  std::size_t found = 0;
   for (Index h = 0; h < costs_.size(); ++h) {
-    if (costs_[h] <= limit) edges.push_back(h);
+    edges[found] = h;
+    found += costs_[h] <= limit;
   }
+  edges.resize(found);
   if (!renew_costs(edges, context)) return cancelled();
   std::vector<Choice> chosen;
   chosen.reserve(edges.size());
