@@ -46,8 +46,8 @@ TEST(Program, SaysItsVersion) {
 }
 
 TEST(Program, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb : {"reconstruct", "triangulate", "smooth", "adapt", "verify", "convert",
-                           "measure", "simulate", "reproduce", "list"}) {
+  for (const char* verb : {"reconstruct", "triangulate", "smooth", "simplify", "refine", "adapt",
+                           "verify", "convert", "measure", "simulate", "reproduce", "list"}) {
     const Outcome outcome = burnish({verb, "--help"});
     EXPECT_EQ(outcome.status, 0) << verb;
     EXPECT_NE(outcome.out.find(std::string("burnish ") + verb), std::string::npos) << outcome.out;
@@ -438,6 +438,31 @@ TEST(Program, SeveralScansWithoutPosesAreRefusedWithWhatToGive) {
       burnish({"reconstruct", folder / "a.ply", folder / "b.ply", "-o", folder / "out.ply"});
   EXPECT_EQ(outcome.status, 2) << outcome.err;
   EXPECT_NE(outcome.err.find("--poses"), std::string::npos) << outcome.err;
+}
+
+TEST(Program, RefinesAroundARegionAndSaysWhichVerticesAreNew) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "sphere.ply", make_sphere(1, 3)));
+  const std::string in = folder / "sphere.ply", out = folder / "out.ply";
+  const Outcome done = burnish({"refine", in, "-o", out, "-m", "sqrt3", "-m",
+                                "split:target_edge_length=5cm", "--region", "sphere:0,0,1,20cm"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_NE(done.out.find("refine sqrt3: new_vertices"), std::string::npos) << done.out;
+  const auto before = read_mesh(in), after = read_mesh(out);
+  ASSERT_TRUE(before && after);
+  EXPECT_GT(after->positions.size(), before->positions.size());
+  const Topology t = topology(*after);
+  EXPECT_TRUE(t.closed() && t.oriented());
+  EXPECT_EQ(t.euler_number, 2);
+  ASSERT_EQ(after->attributes.origin.size(), after->positions.size());
+  EXPECT_EQ(after->attributes.origin.front(), Origin::seen);
+  EXPECT_EQ(after->attributes.origin.back(), Origin::interpolated);
+  for (const char* bad : {"polish", "loop:iterations=17", "split:max_chord=-1"}) {
+    EXPECT_EQ(burnish({"refine", in, "-o", folder / "no.ply", "-m", bad}).status, 2) << bad;
+  }
+  EXPECT_EQ(burnish({"refine", in, "-o", folder / "no.ply", "--region", "sphere:9,9,9,1"}).status,
+            2);
+  EXPECT_FALSE(fs::exists(folder / "no.ply"));
 }
 
 TEST(Program, InterruptStopsWithinASecondAndLeavesNoFile) {
