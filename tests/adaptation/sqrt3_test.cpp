@@ -88,8 +88,8 @@ TEST(Sqrt3, GoesToItsLimit) {
     TriangleMesh mesh = n == 4 ? make_uv_sphere(1, 4, 2) : make_sphere(1, 0);
     const Vec3d p(mesh.positions[0]);
     Vec3d mean;
-    for (const std::uint32_t q : one_rings(mesh).row(0))
-      mean += Vec3d(mesh.positions[q]) / double(n);
+    const Adjacency rings = one_rings(mesh);
+    for (const std::uint32_t q : rings.row(0)) mean += Vec3d(mesh.positions[q]) / double(n);
     const double w = (4 - 2 * std::cos(2 * std::numbers::pi / n)) / 9;
     const Vec3d limit = (p + mean * (3 * w)) / (1 + 3 * w);
     ASSERT_TRUE(refine_sqrt3(mesh, {kPasses}));
