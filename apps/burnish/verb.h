@@ -34,6 +34,7 @@ Action add_reconstruct(CLI::App& app);
 Action add_triangulate(CLI::App& app);
 Action add_smooth(CLI::App& app);
 Action add_simplify(CLI::App& app);
+Action add_refine(CLI::App& app);
 Action add_adapt(CLI::App& app);
 Action add_progressive(CLI::App& app);
 Action add_extract(CLI::App& app);
