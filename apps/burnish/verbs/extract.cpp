@@ -4,11 +4,10 @@
 
 #include "../summary.h"
 #include "../verb.h"
-#include "burnish/adaptation/adaptive_mesh.h"
 #include "burnish/base/quantity.h"
+#include "burnish/pipeline/focus_mesh.h"
 #include "burnish/pipeline/phases.h"
 #include "burnish/pipeline/progressive_file.h"
-#include "burnish/pipeline/selection.h"
 
 namespace burnish::app {
 namespace {
@@ -36,66 +35,53 @@ Result<ProgressiveStop> stop_of(const Options& options) {
   return stop;
 }
 
-struct Extract {
-  TriangleMesh mesh;
-  double error = 0;  ///< m
-  std::uint64_t bytes_read = 0;
-  ProgressiveFileReport file;
-  std::vector<std::string> notes;
-
-  Facts facts() const {
-    return {{"vertices", static_cast<double>(mesh.positions.size()), ""},
-            {"triangles", static_cast<double>(mesh.triangles.size()), ""},
-            {"of_triangles", static_cast<double>(file.triangles), ""},
-            {"error", error, "m"},
-            {"bytes_read", static_cast<double>(bytes_read), ""},
-            {"of_bytes", static_cast<double>(file.bytes), ""}};
-  }
-};
-
-Result<Extract> extract_level(const Options& options, const ProgressiveStop& stop,
-                              const Context& context) {
-  auto level = read_progressive(options.input, stop, context);
-  if (!level) return level.error();
-  return Extract{std::move(level->mesh), level->error, level->bytes_read, level->file,
-                 std::move(level->notes)};
+Facts facts_of(const ProgressiveLevel& level) {
+  return {{"vertices", static_cast<double>(level.mesh.positions.size()), ""},
+          {"triangles", static_cast<double>(level.mesh.triangles.size()), ""},
+          {"of_triangles", static_cast<double>(level.file.triangles), ""},
+          {"error_bound", level.error, "m"},
+          {"bytes_read", static_cast<double>(level.bytes_read), ""},
+          {"of_bytes", static_cast<double>(level.file.bytes), ""}};
 }
 
-Result<Extract> extract_region(const Options& options, const ProgressiveStop& stop,
-                               const Context& context) {
-  const auto where = read_selection(options.region, context.part(0, 0.2));
-  if (!where) return where.error();
-  auto content = read_progressive_all(options.input, context.part(0.2, 0.5));
-  if (!content) return content.error();
-  auto adaptive =
-      AdaptiveMesh::make(std::move(content->level.mesh), content->removals, context.part(0.5, 0.9));
-  if (!adaptive) return adaptive.error();
+/// The level that is to be written; the record gets how it came about.
+Result<TriangleMesh> extract(const Options& options, const ProgressiveStop& stop, Record& record,
+                             const Context& context) {
+  const auto start = std::chrono::steady_clock::now();
+  context.stage("reading " + options.input);
+  auto content = [&]() -> Result<ProgressiveContent> {
+    if (!options.region.empty()) return read_progressive_all(options.input, context.part(0, 0.4));
+    auto level = read_progressive(options.input, stop, context);
+    if (!level) return level.error();
+    return ProgressiveContent{*std::move(level), {}};
+  }();
+  if (!content) return std::move(content).error();
+  auto& [level, removals] = *content;
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  record.steps.push_back({"extract", "level", {}, facts_of(level), spent.count(), {}});
+  for (const std::string& note : level.notes)
+    record.notes.push_back(fmt::format("{}: {}", options.input, note));
+  if (options.region.empty()) return std::move(level.mesh);
   Focus focus;
   focus.inside_error = stop.error;
   focus.outside_triangles = options.outside_triangles.value_or(0);
-  if (auto done = adaptive->focus(*where, focus, context.part(0.9, 1)); !done) return done.error();
-  const ProgressiveLevel& level = content->level;
-  return Extract{adaptive->mesh(), adaptive->error(), level.bytes_read, level.file, level.notes};
+  if (auto done =
+          focus_mesh(level.mesh, removals, options.region, focus, record, context.part(0.4, 1));
+      !done) {
+    return done.error();
+  }
+  return std::move(level.mesh);
 }
 
-Result<void> extract(const Options& options, const Session& session, const Context& context) {
+Result<void> run(const Options& options, const Session& session, const Context& context) {
   const Result<ProgressiveStop> stop = stop_of(options);
   if (!stop) return stop.error();
   if (auto possible = check_output(options.output); !possible) return possible;
-  const auto start = std::chrono::steady_clock::now();
-  context.stage("reading " + options.input);
-  const Result<Extract> result = options.region.empty()
-                                     ? extract_level(options, *stop, context.part(0, 0.7))
-                                     : extract_region(options, *stop, context.part(0, 0.7));
-  if (!result) return result.error();
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  if (auto written = save(options.output, result->mesh, session, context.part(0.7, 1)); !written)
-    return written;
   Record record = new_record("", session.command, {options.input});
-  for (const std::string& note : result->notes)
-    record.notes.push_back(fmt::format("{}: {}", options.input, note));
-  const char* how = options.region.empty() ? "level" : "region";
-  record.steps.push_back({"extract", how, {}, result->facts(), spent.count(), {}});
+  const auto mesh = extract(options, *stop, record, context.part(0, 0.7));
+  if (!mesh) return mesh.error();
+  if (auto written = save(options.output, *mesh, session, context.part(0.7, 1)); !written)
+    return written;
   say_steps(session, record);
   return {};
 }
@@ -136,7 +122,7 @@ Action add_extract(CLI::App& app) {
       "  burnish extract scan.bpm -o near.ply --error 1mm\n"
       "  burnish extract scan.bpm -o face.ply --region sphere:0,0.1,0.4,8cm --outside_triangles "
       "2000");
-  return [options](const Session& s, const Context& c) { return extract(*options, s, c); };
+  return [options](const Session& s, const Context& c) { return run(*options, s, c); };
 }
 
 }  // namespace burnish::app

@@ -253,6 +253,8 @@ Result<ProgressiveFileReport> write_progressive(const std::filesystem::path& pat
                              kMostProgressiveVertices, kMostProgressiveTriangles),
                  path.string()};
   }
+  if (!is_finite(mesh.frame.origin))
+    return Error{ErrorCode::bad_geometry, "the origin of the frame is not finite", {}};
   auto collapsed = collapse(mesh, removals, context.part(0, 0.3));
   if (!collapsed) return collapsed.error();
   auto file = AtomicWriter::create(path);
