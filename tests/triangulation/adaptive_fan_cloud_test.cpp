@@ -370,6 +370,23 @@ TEST(AdaptiveFanCloud, AColorEdgeOnAPlaneStays) {
   EXPECT_GT(near, cloud.active_count() / 5);
 }
 
+TEST(AdaptiveFanCloud, WhatTheSensorMayHaveMadeUpIsNoInformation) {
+  Random random(4);
+  const double sigma = 0.01;
+  PointCloud plain = square(24, [&](double, double) { return sigma * random.normal(); });
+  PointCloud known = plain;
+  known.attributes.sigma.assign(known.positions.size(), static_cast<float>(sigma));
+  const auto rms = [](const PointCloud& cloud) {
+    AdaptiveFanCloud fans = adaptive(cloud);
+    EXPECT_TRUE(fans.to_points(fans.size() / 4));
+    double sum = 0;
+    for (const Vec3f& p : fans.active_cloud().positions) sum += double(p.z) * p.z;
+    return std::sqrt(sum / static_cast<double>(fans.active_count()));
+  };
+  EXPECT_GT(rms(plain), 1.2 * sigma);  // the farthest from the plane stayed
+  EXPECT_LT(rms(known), 0.5 * (rms(plain) + sigma));
+}
+
 TEST(AdaptiveFanCloud, LeavesMissingPixelsOutAndRefusesOtherPlacesThatAreNone) {
   PointCloud plain = on_sphere(30);
   plain.positions[7].y = std::numeric_limits<float>::quiet_NaN();

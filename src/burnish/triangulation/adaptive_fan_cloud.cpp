@@ -11,7 +11,7 @@ namespace burnish {
 namespace {
 
 /// One edit takes as long as the fans of so many points take when all are built at once.
-constexpr std::size_t kEdit = 32;
+constexpr std::size_t kEdit = 16;
 /// Edits between two looks at the clock: a few milliseconds.
 constexpr std::size_t kEditsAtOnce = 64;
 
@@ -72,7 +72,7 @@ void AdaptiveFanCloud::take_normals_of_fans() {
 }
 
 PointInformation AdaptiveFanCloud::information() const {
-  return {params_.weights, usual_edge_, normals_, rest_.attributes.colors};
+  return {params_.weights, usual_edge_, normals_, rest_.attributes};
 }
 
 std::vector<std::uint32_t> AdaptiveFanCloud::active_points() const {

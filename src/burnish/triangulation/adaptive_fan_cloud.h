@@ -34,8 +34,9 @@ enum class WayBack {
 /// bit for bit, those of FanCloud::build, and a way down and back up ends where it began.
 ///
 /// A removal, or a return of few points: O(k) fans of O(log #P + k log k) each. A return of many
-/// builds all fans anew, in parallel. Every call costs O(#P) besides. About 400 bytes a point.
-/// A call that is cancelled stops at a level between.
+/// builds all fans anew, in parallel. Every call costs O(#P) besides. About 400 bytes a point,
+/// half as many again while all fans are built anew. A call that is cancelled stops at a level
+/// between.
 class AdaptiveFanCloud {
  public:
   struct Removal {

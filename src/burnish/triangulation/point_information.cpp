@@ -54,7 +54,9 @@ const Schema<InformationWeights>& InformationWeights::schema() {
           .real("color_weight", &W::color_weight, at_least(0),
                 "of the change of color, where there are colors")
           .real("outline_weight", &W::outline_weight, at_least(0),
-                "of how far the outline would move, in the same medians");
+                "of how far the outline would move, in the same medians")
+          .real("noise_sigmas", &W::noise_sigmas, at_least(0),
+                "a distance of up to so many of the point's own sigma is noise");
   return schema;
 }
 
@@ -90,9 +92,11 @@ double PointInformation::operator()(const FanCloud& fans, std::uint32_t p) const
     bend += 1 - std::min(1.0, std::abs(dot(normal, Vec3d(normals_[q]))));
   });
   const double edge = edges / count;
-  double information =
-      weights_.distance_weight * std::abs(dot(Vec3d(fans.fan_normal(p)), sum / count)) / edge +
-      weights_.normal_weight * bend / count + weights_.crowding_weight * edge / usual_edge_;
+  double distance = std::abs(dot(Vec3d(fans.fan_normal(p)), sum / count));
+  if (!sigma_.empty()) distance = std::max(0.0, distance - weights_.noise_sigmas * sigma_[p]);
+  double information = weights_.distance_weight * distance / edge +
+                       weights_.normal_weight * bend / count +
+                       weights_.crowding_weight * edge / usual_edge_;
   if (!colors_.empty()) information += weights_.color_weight * color_change(rim, p);
   if (fans.state(p) == FanState::open) {
     information += weights_.outline_weight * outline_change(fans, p) / usual_edge_;

@@ -17,6 +17,7 @@ struct InformationWeights {
   double crowding_weight = 0.3;
   double color_weight = 1;
   double outline_weight = 2;
+  double noise_sigmas = 3;
 
   static const Schema<InformationWeights>& schema();
 };
@@ -25,23 +26,28 @@ struct InformationWeights {
 /// abstract could be read; the formula is our own). With the rim q_i of the fan of p, m the mean of
 /// |q_i - p|, and n the fan's normal:
 ///
-///     S(p) = distance_weight * |n . (p - mean q_i)| / m
+///     S(p) = distance_weight * d / m,  d = |n . (p - mean q_i)| - noise_sigmas * sigma_p, or 0
 ///          + normal_weight   * mean of 1 - |n_p . n_i|
 ///          + crowding_weight * m / M
 ///          + color_weight    * |c_p - mean c_i|, 0 to 1
 ///          + outline_weight  * the distance of p from the segment that closes its gap / M
 ///
-/// n_p, n_i are the points' own normals, M a length: what is usual for m. The last term, of open
-/// fans alone, is how far the outline would move; of several gaps the largest counts. Of a flat and
-/// even cloud only the third is not 0. A point without a fan counts as one whose distance is m and
-/// whose normal is across; one in the place of another has no information.
+/// sigma_p is what the sensor may be off, where that is known: what it may have made up is no
+/// information. n_p, n_i are the points' own normals, M a length: what is usual for m. The last
+/// term, of open fans alone, is how far the outline would move; of several gaps the largest counts.
+/// Of a flat and even cloud only the third is not 0. A point without a fan counts as one whose
+/// distance is m and whose normal is across; one in the place of another has no information.
 class PointInformation {
  public:
-  /// `normals`: one a point, of unit length or 0 where unknown; `colors`: the same, or none. Both
-  /// must stay.
+  /// `normals`: one a point, of unit length or 0 where unknown. Colors and sigma are those of
+  /// `attributes`, where it has them. Both must stay.
   PointInformation(const InformationWeights& weights, double usual_edge,
-                   std::span<const Vec3f> normals, std::span<const Color> colors)
-      : weights_(weights), usual_edge_(usual_edge), normals_(normals), colors_(colors) {}
+                   std::span<const Vec3f> normals, const Attributes& attributes)
+      : weights_(weights),
+        usual_edge_(usual_edge),
+        normals_(normals),
+        colors_(attributes.colors),
+        sigma_(attributes.sigma) {}
 
   /// S of an active point; depends on its fan and on what is known of the points in it. O(k).
   double operator()(const FanCloud& fans, std::uint32_t p) const;
@@ -53,6 +59,7 @@ class PointInformation {
   double usual_edge_;
   std::span<const Vec3f> normals_;
   std::span<const Color> colors_;
+  std::span<const float> sigma_;
 };
 
 /// The mean distance of a point from the rim of its fan; 0 where it has none.
