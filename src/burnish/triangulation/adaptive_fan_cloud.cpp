@@ -85,10 +85,10 @@ std::vector<std::uint32_t> AdaptiveFanCloud::active_points() const {
 }
 
 PointCloud AdaptiveFanCloud::active_cloud() const {
-  const Selection active(active_points());
+  const std::vector<std::uint32_t> active = active_points();
   PointCloud cloud;
   cloud.attributes = gather(rest_.attributes, active);
-  for (const std::uint32_t p : active_points()) {
+  for (const std::uint32_t p : active) {
     cloud.positions.push_back(fans_.positions()[p]);
     if (!fans_.normals().empty()) cloud.attributes.normals.push_back(fans_.normals()[p]);
   }

@@ -9,10 +9,12 @@
 namespace burnish {
 namespace {
 
+/// At least one, so that a cloud stays one.
 std::size_t target_of(const FanThinningParams& params, std::size_t points) {
   const double ratio = params.ratio == 0 && params.target_points == 0 ? 0.5 : params.ratio;
-  return std::max(static_cast<std::size_t>(params.target_points),
-                  static_cast<std::size_t>(std::llround(ratio * static_cast<double>(points))));
+  const auto share = static_cast<std::size_t>(std::llround(ratio * static_cast<double>(points)));
+  const std::size_t target = std::max(static_cast<std::size_t>(params.target_points), share);
+  return std::clamp<std::size_t>(target, 1, std::max<std::size_t>(points, 1));
 }
 
 /// The points along a space-filling curve, then those in the place of another: an order that keeps
@@ -59,7 +61,7 @@ Result<FanThinningReport> thin_by_fans(PointCloud& cloud, const FanThinningParam
   if (!fans) return std::move(fans).error();
   context.stage("removing points");
   const std::size_t target = target_of(params, order.size());
-  if (auto done = fans->to_points(std::min(target, order.size()), context.part(0.1, 0.98)); !done) {
+  if (auto done = fans->to_points(target, context.part(0.1, 0.98)); !done) {
     return done.error();
   }
 
