@@ -5,6 +5,7 @@
 #include "../verb.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/pipeline/phases.h"
+#include "burnish/pipeline/recipe.h"
 
 namespace burnish::app {
 namespace {
@@ -35,26 +36,23 @@ Settings settings_of(const Options& options) {
   return settings;
 }
 
-/// The methods asked for, or the family's usual one, with the verb's own settings; all are in the
-/// family that `find` looks in.
-template <class Find>
-Result<std::vector<Method>> methods_of(const Options& options, const char* usual, Find find) {
-  Result<std::vector<Method>> methods =
-      options.methods.empty() ? std::vector{Method{usual, {}}} : parse_methods(options.methods);
+/// The methods asked for, or the family's usual one, with the verb's own settings.
+Result<std::vector<Method>> methods_of(const Options& options, const char* usual,
+                                       Result<void> (*check)(const std::vector<Method>&)) {
+  Result<std::vector<Method>> methods = std::vector{Method{usual, {}}};
+  if (!options.methods.empty()) methods = parse_methods(options.methods);
   if (!methods) return methods;
   const Settings own = settings_of(options);
   for (Method& method : *methods) {
     method.settings.insert(method.settings.end(), own.begin(), own.end());
-    const auto operation = find(method.name);
-    if (!operation) return operation.error();
-    if (auto settings = (*operation)->resolve(method.settings); !settings) return settings.error();
   }
+  if (auto known = check(*methods); !known) return known.error();
   return methods;
 }
 
 Result<void> simplify_mesh(TriangleMesh mesh, const Options& options, Record& record,
                            const Session& session, const Context& context) {
-  const auto methods = methods_of(options, "quadric", find_simplify);
+  const auto methods = methods_of(options, "quadric", check_simplification);
   if (!methods) return methods.error();
   if (auto done =
           simplify_in_phases(mesh, *methods, options.report.wanted(), record, context.part(0, 0.8));
@@ -66,15 +64,11 @@ Result<void> simplify_mesh(TriangleMesh mesh, const Options& options, Record& re
 
 Result<void> thin_points(PointCloud cloud, const Options& options, Record& record,
                          const Session& session, const Context& context) {
-  const auto methods = methods_of(options, "fan_cloud", find_thin);
+  const auto methods = methods_of(options, "fan_cloud", check_thinning);
   if (!methods) return methods.error();
   if (auto done = thin_cloud(cloud, *methods, record, context.part(0, 0.8)); !done) return done;
-  for (const Step& step : record.steps) {
-    say(session, "thin " + to_string(Method{step.method, step.settings}));
-  }
-  context.stage("writing " + options.output);
-  return finish_writing(write_cloud(options.output, cloud, {}, context.part(0.8, 1)),
-                        options.output, session);
+  say_methods(session, record);
+  return save(options.output, cloud, session, context.part(0.8, 1));
 }
 
 Result<void> simplify(const Options& options, const Session& session, const Context& context) {

@@ -12,11 +12,11 @@
 namespace burnish {
 namespace {
 
-constexpr float kNever = std::numeric_limits<float>::infinity();
-
 // What became of a vertex since the costs were found.
 constexpr std::uint8_t kMerged = 1;       ///< its quadric is another: costs of its edges are stale
 constexpr std::uint8_t kRingChanged = 2;  ///< what could not collapse may be able to now
+
+constexpr float kAnyCost = std::numeric_limits<float>::max();
 
 /// The weight of a triangle's corners beside that of its plane: keeps triangles compact where
 /// planes leave a place open.
@@ -27,19 +27,20 @@ constexpr double kBoundaryWeight = 10;
 constexpr double kLeastCosine = 0.2;
 /// The share of the vertices that go in a round: fewer come closer to the order of their costs,
 /// more take fewer rounds.
-constexpr double kRound = 0.3;
+constexpr double kRound = 0.5;
 
 }  // namespace
 
 Decimation::Decimation(const TriangleMesh& mesh, Placement placement,
-                       std::optional<DeviationBound> bound)
-    : half_edges_(mesh.positions.size(), mesh.triangles),
+                       std::optional<DeviationBound> bound, const Context& context)
+    : half_edges_(mesh.positions.size(), mesh.triangles, context),
       placement_(placement),
       bound_(std::move(bound)),
       positions_(mesh.positions.begin(), mesh.positions.end()),
       quadrics_(mesh.positions.size(), Quadric{}),
-      costs_(3 * mesh.triangles.size(), 0.f),
-      state_(mesh.positions.size(), kMerged),
+      costs_(3 * mesh.triangles.size()),
+      stale_(3 * mesh.triangles.size(), false),
+      state_(mesh.positions.size(), 0),
       numbers_(mesh.triangles.size()) {
   std::iota(numbers_.begin(), numbers_.end(), 0u);
   if (!mesh.positions.empty()) add_triangle_quadrics(mesh);
@@ -102,43 +103,60 @@ Decimation::Candidate Decimation::best(Index h) const {
   return best;
 }
 
-/// Of every edge whose ends have changed.
+/// Of all edges.
 bool Decimation::find_costs(const Context& context) {
-  return parallel_for(context, half_edges_.triangles(), [this](IndexRange range) {
-    for (std::size_t t = range.begin; t < range.end; ++t) {
-      if (!half_edges_.is_live(t)) continue;
-      for (Index h = 3 * t; h < 3 * t + 3; ++h) {
-        const Index twin = half_edges_.twin(h);
-        if (twin < h) continue;  // kNone is the largest
-        const std::uint8_t changed = state_[half_edges_.origin(h)] | state_[half_edges_.head(h)];
-        if ((changed & kMerged) || (changed && costs_[h] == kNever)) {
-          costs_[h] = static_cast<float>(best(h).cost);
-        }
-      }
+  return parallel_for(context, costs_.size(), [this](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const auto h = static_cast<Index>(i);
+      const bool stands_for_edge = half_edges_.twin(h) > h;  // kNone is the largest
+      costs_[h] = stands_for_edge ? static_cast<float>(best(h).cost) : kNever;
     }
   });
 }
 
-/// At least the `count` cheapest edges, in order; fewer only where there are no more.
-std::vector<Decimation::Choice> Decimation::cheapest(std::size_t count) {
-  // Positive floats are ordered as their bits are.
-  const auto drawer_of = [](float cost) { return std::bit_cast<std::uint32_t>(cost) >> 18; };
-  std::vector<std::uint32_t> drawers(drawer_of(kNever) + 1, 0);
-  const auto visit = [this](auto use) {
-    for (std::size_t t = 0; t < half_edges_.triangles(); ++t) {
-      if (!half_edges_.is_live(t)) continue;
-      for (Index h = 3 * t; h < 3 * t + 3; ++h) {
-        if (half_edges_.twin(h) > h && costs_[h] != kNever) use(h);
-      }
+/// A cost that about `count` edges do not exceed: some of them are looked at, chosen by the last
+/// bits of their costs, so that it does not matter in what order the edges come.
+float Decimation::cost_of_cheapest(std::size_t count) const {
+  constexpr std::uint32_t kOneIn = 16;
+  std::vector<float> some;
+  some.reserve(costs_.size() / kOneIn);
+  for (const float cost : costs_) {
+    if (std::bit_cast<std::uint32_t>(cost) % kOneIn == 0 && cost >= 0 && cost != kNever) {
+      some.push_back(cost);
     }
-  };
-  visit([&](Index h) { ++drawers[drawer_of(costs_[h])]; });
-  std::uint32_t last = 0;
-  for (std::size_t sum = 0; last + 1 < drawers.size() && (sum += drawers[last]) < count;) ++last;
-  std::vector<Choice> chosen;
-  visit([&](Index h) {
-    if (drawer_of(costs_[h]) <= last) chosen.push_back({costs_[h], h});
+  }
+  const std::size_t rank = count / kOneIn;
+  if (rank >= some.size()) return kAnyCost;
+  std::nth_element(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(rank), some.end());
+  return some[rank];
+}
+
+/// Finds the costs of `edges` that are not known any more.
+bool Decimation::renew_costs(std::span<const Index> edges, const Context& context) {
+  return parallel_for(context, edges.size(), [&](IndexRange range) {
+    for (const Index h : edges.subspan(range.begin, range.end - range.begin)) {
+      const bool hindered = costs_[h] == kHindered;
+      if (hindered && !state_[half_edges_.origin(h)] && !state_[half_edges_.head(h)]) continue;
+      if (hindered || stale_[h]) costs_[h] = static_cast<float>(best(h).cost);
+      stale_[h] = false;
+    }
   });
+}
+
+/// The edges that cost no more than `limit`, in order. What an edge
+/// cost before one of its ends was merged is less than what it costs now: such costs are found anew
+/// only once they are among the cheapest.
+Result<std::vector<Decimation::Choice>> Decimation::cheapest(float limit, const Context& context) {
+  std::vector<Index> edges;
+  for (Index h = 0; h < costs_.size(); ++h) {
+    if (costs_[h] <= limit) edges.push_back(h);
+  }
+  if (!renew_costs(edges, context)) return cancelled();
+  std::vector<Choice> chosen;
+  chosen.reserve(edges.size());
+  for (const Index h : edges) {
+    if (costs_[h] != kHindered && costs_[h] <= limit) chosen.push_back({costs_[h], h});
+  }
   std::sort(chosen.begin(), chosen.end(), [](const Choice& x, const Choice& y) {
     return x.cost != y.cost ? x.cost < y.cost : x.edge < y.edge;
   });
@@ -186,6 +204,7 @@ void Decimation::make(const Collapse& collapse) {
   shares_.push_back(static_cast<float>(std::clamp(share, 0., 1.)));
   removals_.push_back({goes, stays, bound_ ? static_cast<float>(bound_->largest()) : 0.f});
 
+  join_costs(collapse.half_edge);
   half_edges_.collapse(collapse.half_edge, collapse.head_goes);
   positions_[stays] = collapse.position;
   quadrics_[stays] += quadrics_[goes];
@@ -193,17 +212,39 @@ void Decimation::make(const Collapse& collapse) {
   half_edges_.for_each_from(stays, [&](Index from) {
     state_[half_edges_.head(from)] |= kRingChanged;
     state_[half_edges_.apex(from)] |= kRingChanged;
+    stale_[std::min(from, half_edges_.twin(from))] = true;
+    const Index into = HalfEdges::previous(from);
+    stale_[std::min(into, half_edges_.twin(into))] = true;
   });
+}
+
+/// Of two edges that become one the lower cost stays, at the smaller of the half-edges left.
+void Decimation::join_costs(Index collapsing) {
+  for (const Index side : {collapsing, half_edges_.twin(collapsing)}) {
+    if (side == HalfEdges::kNone) continue;
+    const Index x = HalfEdges::next(side), y = HalfEdges::previous(side);
+    const Index beyond_x = half_edges_.twin(x), beyond_y = half_edges_.twin(y);
+    const float cost = std::min(costs_[std::min(x, beyond_x)], costs_[std::min(y, beyond_y)]);
+    for (const Index h : {side, x, y}) costs_[h] = kNever;
+    costs_[std::min(beyond_x, beyond_y)] = cost;
+    if (beyond_x != HalfEdges::kNone && beyond_y != HalfEdges::kNone) {
+      costs_[std::max(beyond_x, beyond_y)] = kNever;
+    }
+  }
 }
 
 void Decimation::compact() {
   const LargeVector<Index> kept = half_edges_.compact();
   for (std::size_t t = 0; t < kept.size(); ++t) {
     numbers_[t] = numbers_[kept[t]];
-    for (std::size_t i = 0; i < 3; ++i) costs_[3 * t + i] = costs_[3 * std::size_t{kept[t]} + i];
+    for (std::size_t i = 0; i < 3; ++i) {
+      costs_[3 * t + i] = costs_[3 * std::size_t{kept[t]} + i];
+      stale_[3 * t + i] = stale_[3 * std::size_t{kept[t]} + i];
+    }
   }
   numbers_.resize(kept.size());
   costs_.resize(3 * kept.size());
+  stale_.resize(3 * kept.size());
   if (bound_) bound_->compact(kept);
 }
 
@@ -213,25 +254,30 @@ std::vector<Triangle> Decimation::triangles_left() const {
   return left;
 }
 
+/// Collapses the edges that were chosen, but for those whose costs an earlier one has changed.
+void Decimation::collapse_all(const std::vector<Choice>& chosen, std::size_t target) {
+  for (const Choice& choice : chosen) {
+    const Index h = choice.edge;
+    if (!half_edges_.is_live(h / 3)) continue;
+    if ((state_[half_edges_.origin(h)] | state_[half_edges_.head(h)]) & kMerged) continue;
+    if (!try_collapse(h)) costs_[h] = kHindered;
+    if (triangles() <= target) break;
+  }
+}
+
 Result<void> Decimation::run(std::size_t target, const Context& context) {
   const std::size_t before = triangles();
   Context quiet = context;
   quiet.sink = nullptr;
+  if (!find_costs(quiet)) return cancelled();
   while (triangles() > target) {
-    if (!find_costs(quiet)) return cancelled();
+    const auto round = static_cast<std::size_t>(static_cast<double>(triangles()) / 2 * kRound);
+    const float limit = cost_of_cheapest(std::clamp<std::size_t>(round, 1, triangles() - target));
+    const auto chosen = cheapest(limit, quiet);
+    if (!chosen) return chosen.error();
+    if (chosen->empty() && limit == kAnyCost) break;
     std::fill(state_.begin(), state_.end(), 0);
-    const std::size_t wanted = std::min<std::size_t>(
-        std::max<std::size_t>(1, static_cast<std::size_t>(triangles() / 2. * kRound)),
-        triangles() - target);
-    const std::size_t start = triangles();
-    for (const Choice& choice : cheapest(wanted)) {
-      const Index h = choice.edge;
-      if (!half_edges_.is_live(h / 3)) continue;
-      if ((state_[half_edges_.origin(h)] | state_[half_edges_.head(h)]) & kMerged) continue;
-      if (!try_collapse(h)) costs_[h] = kNever;
-      if (triangles() <= target) break;
-    }
-    if (triangles() == start) break;
+    collapse_all(*chosen, target);
     if (triangles() < half_edges_.triangles() / 2) compact();
     context.progress(static_cast<double>(before - triangles()) /
                      static_cast<double>(before - target));

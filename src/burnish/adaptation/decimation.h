@@ -1,6 +1,8 @@
 #pragma once
 
+#include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,8 +21,8 @@ namespace burnish {
 class Decimation {
  public:
   /// `bound`: every collapse must be accepted by it.
-  Decimation(const TriangleMesh& mesh, Placement placement,
-             std::optional<DeviationBound> bound = std::nullopt);
+  Decimation(const TriangleMesh& mesh, Placement placement, std::optional<DeviationBound> bound,
+             const Context& context);
 
   /// Collapses edges, cheapest first, until at most `target` triangles are left or none can go.
   Result<void> run(std::size_t target, const Context& context);
@@ -48,6 +50,11 @@ class Decimation {
     Vec3f position;
     bool head_goes;
   };
+  /// The cost of an edge that could not collapse as things were around it.
+  static constexpr float kHindered = -1;
+  /// The cost of what can never collapse, or is no edge of its own.
+  static constexpr float kNever = std::numeric_limits<float>::infinity();
+
   struct Choice {
     float cost;
     Index edge;
@@ -56,9 +63,13 @@ class Decimation {
   void add_triangle_quadrics(const TriangleMesh& mesh);
   Candidate best(Index h) const;
   bool find_costs(const Context& context);
-  std::vector<Choice> cheapest(std::size_t count);
+  float cost_of_cheapest(std::size_t count) const;
+  bool renew_costs(std::span<const Index> edges, const Context& context);
+  Result<std::vector<Choice>> cheapest(float limit, const Context& context);
+  void join_costs(Index collapsing);
   bool folds(Index h, const Candidate& candidate) const;
   bool folds_around(Index v, Index other, const Vec3d& moved_to) const;
+  void collapse_all(const std::vector<Choice>& chosen, std::size_t target);
   bool try_collapse(Index h);
   void make(const Collapse& collapse);
   void compact();
@@ -67,11 +78,12 @@ class Decimation {
   HalfEdges half_edges_;
   Placement placement_;
   std::optional<DeviationBound> bound_;
-  Vec3d centre_;                        ///< what quadrics are measured from, so that little cancels
-  LargeVector<Vec3f> positions_;        ///< per vertex
-  LargeVector<Quadric> quadrics_;       ///< per vertex
-  LargeVector<float> costs_;            ///< per half-edge; of an edge at the smaller of its two
-  std::vector<std::uint8_t> state_;     ///< per vertex what became of it since costs were found
+  Vec3d centre_;                     ///< what quadrics are measured from, so that little cancels
+  LargeVector<Vec3f> positions_;     ///< per vertex
+  LargeVector<Quadric> quadrics_;    ///< per vertex
+  LargeVector<float> costs_;         ///< per half-edge; of an edge at the smaller of its two
+  LargeVector<std::uint8_t> stale_;  ///< per half-edge whether its cost is that of before a merge
+  std::vector<std::uint8_t> state_;  ///< per vertex what became of it in this round
   LargeVector<std::uint32_t> numbers_;  ///< per triangle what the mesh calls it
   std::vector<Removal> removals_;
   std::vector<float> shares_;

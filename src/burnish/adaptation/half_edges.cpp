@@ -1,12 +1,16 @@
 #include "burnish/adaptation/half_edges.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "burnish/base/parallel.h"
 
 namespace burnish {
 
-HalfEdges::HalfEdges(std::size_t vertices, const std::vector<Triangle>& triangles)
+HalfEdges::HalfEdges(std::size_t vertices, const std::vector<Triangle>& triangles,
+                     const Context& context)
     : origin_(3 * triangles.size()),
-      twin_(3 * triangles.size(), kNone),
+      twin_(3 * triangles.size()),
       out_(vertices, kNone),
       kind_(vertices, Kind::inner),
       marked_(vertices, 0),
@@ -14,65 +18,63 @@ HalfEdges::HalfEdges(std::size_t vertices, const std::vector<Triangle>& triangle
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t i = 0; i < 3; ++i) origin_[3 * t + i] = triangles[t][i];
   }
-  pair_up(vertices);
-  find_kinds();
-}
-
-/// Twins are found among the half-edges of one vertex.
-void HalfEdges::pair_up(std::size_t vertices) {
   LargeVector<Index> offsets(vertices + 1, 0), leaving(origin_.size());
   for (const Index v : origin_) ++offsets[v + 1];
   for (std::size_t v = 0; v < vertices; ++v) offsets[v + 1] += offsets[v];
   LargeVector<Index> place(offsets.begin(), offsets.end() - 1);
   for (Index h = 0; h < origin_.size(); ++h) leaving[place[origin_[h]]++] = h;
 
-  const auto count_along = [&](Index from, Index to, Index& found) {
-    int count = 0;
-    for (Index i = offsets[from]; i < offsets[from + 1]; ++i) {
-      if (head(leaving[i]) == to) {
-        found = leaving[i];
-        ++count;
+  Context quiet = context;
+  quiet.sink = nullptr;
+  const Adjacency rows(std::move(offsets), std::move(leaving));
+  if (!pair_up(rows, quiet)) return;
+  find_kinds(rows);
+}
+
+/// Finds the twin of each half-edge in the row of its head; kAmbiguous where there are several.
+bool HalfEdges::pair_up(const Adjacency& leaving, const Context& context) {
+  return parallel_for(context, origin_.size(), [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const auto h = static_cast<Index>(i);
+      const Index a = origin(h), b = head(h);
+      int along = 0, against = 0;
+      for (const Index other : leaving.row(a)) along += head(other) == b;
+      twin_[h] = kNone;
+      for (const Index other : leaving.row(b)) {
+        if (head(other) != a) continue;
+        twin_[h] = other;
+        ++against;
       }
+      if (along > 1 || against > 1 || a == b || a == apex(h)) twin_[h] = kAmbiguous;
     }
-    return count;
-  };
+  });
+}
+
+void HalfEdges::find_kinds(const Adjacency& leaving) {
   for (Index h = 0; h < origin_.size(); ++h) {
-    const Index a = origin(h), b = head(h);
-    if (a == b || a == apex(h)) {
-      lock_edge(h);
-    } else if (twin_[h] == kNone) {
-      Index same = kNone, opposite = kNone;
-      const int along = count_along(a, b, same), against = count_along(b, a, opposite);
-      if (along > 1 || against > 1) {
-        lock_edge(h);
-      } else if (against == 1) {
-        twin_[h] = opposite;
-        twin_[opposite] = h;
-      }
+    if (twin_[h] == kAmbiguous) {
+      kind_[origin(h)] = kind_[head(h)] = kind_[apex(h)] = Kind::locked;
+      twin_[h] = kNone;
+    } else if (twin_[h] != kNone && twin_[twin_[h]] != h) {
+      twin_[h] = kNone;
     }
   }
-
-  // A vertex of several fans: going around it from one half-edge does not meet all of them.
-  for (Index v = 0; v < vertices; ++v) {
-    if (offsets[v] == offsets[v + 1]) kind_[v] = Kind::locked;
-    if (kind_[v] == Kind::locked) continue;
-    out_[v] = leaving[offsets[v]];
-    for (Index i = offsets[v]; i < offsets[v + 1]; ++i) {
-      if (twin_[leaving[i]] == kNone) out_[v] = leaving[i];
-    }
-    Index met = 0;
-    for_each_from(v, [&](Index) { ++met; });
-    if (met != offsets[v + 1] - offsets[v]) kind_[v] = Kind::locked;
-  }
-}
-
-void HalfEdges::lock_edge(Index h) {
-  kind_[origin(h)] = kind_[head(h)] = kind_[apex(h)] = Kind::locked;
-}
-
-void HalfEdges::find_kinds() {
   for (Index v = 0; v < kind_.size(); ++v) {
-    if (kind_[v] != Kind::locked && twin_[out_[v]] == kNone) kind_[v] = Kind::boundary;
+    const auto row = leaving.row(v);
+    if (row.empty()) kind_[v] = Kind::locked;
+    if (kind_[v] == Kind::locked) continue;
+    out_[v] = row[0];
+    for (const Index h : row) {
+      if (twin_[h] == kNone) out_[v] = h;
+    }
+    // Where there are several fans, going around from one half-edge does not meet all of them.
+    std::size_t met = 0;
+    for_each_from(v, [&](Index) { ++met; });
+    if (met != row.size()) {
+      kind_[v] = Kind::locked;
+    } else if (twin_[out_[v]] == kNone) {
+      kind_[v] = Kind::boundary;
+    }
   }
 }
 

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "burnish/base/context.h"
 #include "burnish/base/large_vector.h"
+#include "burnish/core/adjacency.h"
 #include "burnish/core/triangle_mesh.h"
 
 namespace burnish {
@@ -19,8 +21,10 @@ class HalfEdges {
   using Index = std::uint32_t;
   static constexpr Index kNone = 0xffffffff;
 
-  /// `triangles` name vertices below `vertices`. O(#V + #T).
-  HalfEdges(std::size_t vertices, const std::vector<Triangle>& triangles);
+  /// `triangles` name vertices below `vertices`. Where the context is cancelled nothing that it
+  /// says is true. O(#V + #T).
+  HalfEdges(std::size_t vertices, const std::vector<Triangle>& triangles,
+            const Context& context = {});
 
   static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
@@ -71,9 +75,9 @@ class HalfEdges {
   LargeVector<Index> compact();
 
  private:
-  void pair_up(std::size_t vertices);
-  void lock_edge(Index h);
-  void find_kinds();
+  static constexpr Index kAmbiguous = kNone - 1;
+  bool pair_up(const Adjacency& leaving, const Context& context);
+  void find_kinds(const Adjacency& leaving);
 
   LargeVector<Index> origin_, twin_;
   LargeVector<Index> out_;     ///< per vertex a half-edge that leaves it; the first on a boundary

@@ -15,7 +15,7 @@ Result<std::vector<Removal>> removal_log(const TriangleMesh& mesh, std::size_t t
                                          const Context& context) {
   if (auto sound = check(mesh); !sound) return sound.error();
   const std::vector<float> limits(mesh.triangles.size(), std::numeric_limits<float>::infinity());
-  Decimation decimation(mesh, Placement::endpoint, DeviationBound(limits));
+  Decimation decimation(mesh, Placement::endpoint, DeviationBound(limits), context);
   if (auto done = decimation.run(target, context); !done) return done.error();
   return decimation.take_removals();
 }

@@ -109,7 +109,7 @@ Result<SimplifyReport> simplify(TriangleMesh& mesh, Placement placement,
   if (!limits->empty()) bound.emplace(*std::move(limits));
 
   const std::size_t target = target_of(params, mesh.triangles.size());
-  Decimation decimation(mesh, placement, std::move(bound));
+  Decimation decimation(mesh, placement, std::move(bound), context);
   if (auto done = decimation.run(target, context.part(0, 0.9)); !done) return done.error();
   TriangleMesh result = decimated(mesh, decimation);
   if (context.cancelled()) return cancelled();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "burnish/triangulation/adaptive_fan_cloud.h"
 #include "burnish/triangulation/point_order.h"
 
 namespace burnish {
@@ -52,6 +51,12 @@ Facts FanThinningReport::facts() const {
 
 Result<FanThinningReport> thin_by_fans(PointCloud& cloud, const FanThinningParams& params,
                                        const Context& context) {
+  return thin_by_fans(
+      cloud, [](std::uint32_t) { return true; }, params, context);
+}
+
+Result<FanThinningReport> thin_by_fans(PointCloud& cloud, const PointSelection& where,
+                                       const FanThinningParams& params, const Context& context) {
   if (auto valid = FanThinningParams::schema().check(params); !valid) return valid.error();
   if (auto sound = check(cloud); !sound) return sound.error();
   const std::vector<std::uint32_t> order = order_of(cloud.positions);
@@ -60,8 +65,11 @@ Result<FanThinningReport> thin_by_fans(PointCloud& cloud, const FanThinningParam
       AdaptiveFanCloud::build(select(cloud, order), {{}, params.weights}, context.part(0, 0.1));
   if (!fans) return std::move(fans).error();
   context.stage("removing points");
-  const std::size_t target = target_of(params, order.size());
-  if (auto done = fans->to_points(target, context.part(0.1, 0.98)); !done) {
+  const auto selected = [&](std::uint32_t i) { return where(order[i]); };
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < order.size(); ++i) count += selected(i);
+  const std::size_t target = target_of(params, count);
+  if (auto done = fans->reduce(selected, target, context.part(0.1, 0.98)); !done) {
     return done.error();
   }
 

@@ -3,7 +3,7 @@
 #include "burnish/base/context.h"
 #include "burnish/base/facts.h"
 #include "burnish/core/point_cloud.h"
-#include "burnish/triangulation/point_information.h"
+#include "burnish/triangulation/adaptive_fan_cloud.h"
 
 namespace burnish {
 
@@ -31,6 +31,12 @@ struct FanThinningReport {
 /// grid of an organized cloud goes. O(k) fans of O(log #P + k log k) each a point.
 /// Errors: invalid_argument, bad_geometry, cancelled; `cloud` is then unchanged.
 Result<FanThinningReport> thin_by_fans(PointCloud& cloud, const FanThinningParams& params = {},
+                                       const Context& context = {});
+
+/// The same of the points that `where` names by their numbers in `cloud`: of them alone so many are
+/// to be left, and no other goes.
+Result<FanThinningReport> thin_by_fans(PointCloud& cloud, const PointSelection& where,
+                                       const FanThinningParams& params = {},
                                        const Context& context = {});
 
 }  // namespace burnish
