@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "burnish/base/context.h"
+#include "burnish/base/result.h"
 #include "burnish/core/point_cloud.h"
 #include "burnish/pipeline/record.h"
 
