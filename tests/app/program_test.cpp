@@ -46,8 +46,8 @@ TEST(Program, SaysItsVersion) {
 }
 
 TEST(Program, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb : {"reconstruct", "triangulate", "smooth", "refine", "verify", "convert",
-                           "measure", "simulate", "reproduce", "list"}) {
+  for (const char* verb : {"reconstruct", "triangulate", "smooth", "simplify", "refine", "adapt",
+                           "verify", "convert", "measure", "simulate", "reproduce", "list"}) {
     const Outcome outcome = burnish({verb, "--help"});
     EXPECT_EQ(outcome.status, 0) << verb;
     EXPECT_NE(outcome.out.find(std::string("burnish ") + verb), std::string::npos) << outcome.out;
@@ -349,6 +349,44 @@ TEST(Program, SmoothsInARegionAlone) {
         << outcome.out;
     EXPECT_EQ(after->attributes.channels, before.attributes.channels);
   }
+}
+
+TEST(Program, AdaptsToWhatLiesNearAMesh) {
+  const TemporaryFolder folder;
+  const TriangleMesh before = make_sphere(1, 4);
+  TriangleMesh part = make_sphere(0.3, 3);
+  for (Vec3f& p : part.positions) p.z += 1;
+  const std::string in = folder / "in.ply", near = folder / "near.ply", out = folder / "out.ply";
+  ASSERT_TRUE(write_mesh(in, before));
+  ASSERT_TRUE(write_mesh(near, part));
+  const Outcome outcome = burnish({"adapt", in, "-o", out, "--region", "near:" + near + ",15cm",
+                                   "--outside_triangles", "1000"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto after = read_mesh(out);
+  ASSERT_TRUE(after);
+  EXPECT_LT(after->triangles.size(), before.triangles.size() / 2);
+  // The distance from the finely cut ball is at most its sagitta off.
+  const auto inside = [](const TriangleMesh& mesh) {
+    return std::count_if(mesh.positions.begin(), mesh.positions.end(), [](const Vec3f& p) {
+      return std::abs(norm(p - Vec3f{0, 0, 1}) - 0.3f) < 0.149f;
+    });
+  };
+  EXPECT_GT(inside(*after), 100);
+  EXPECT_EQ(inside(*after), inside(before));
+  const Topology t = topology(*after);
+  EXPECT_TRUE(t.closed() && t.oriented());
+  EXPECT_EQ(t.euler_number, 2);
+
+  for (const auto& wrong : {std::vector<std::string>{"--region", "sphere:9,9,9,1"},
+                            {"--region", "cube:1"},
+                            {"--region", "sphere:0,0,1,1", "--inside_error", "-1mm"},
+                            {"--region", "sphere:0,0,1,1", "--outside_error", "1kg"},
+                            {}}) {
+    std::vector<std::string> words{"adapt", in, "-o", folder / "none.ply"};
+    words.insert(words.end(), wrong.begin(), wrong.end());
+    EXPECT_EQ(burnish(words).status, 2);
+  }
+  EXPECT_FALSE(fs::exists(folder / "none.ply"));
 }
 
 TEST(Program, ReconstructsWithARegionToSmooth) {

@@ -73,7 +73,7 @@ Subject subject_of(const TriangulateOperation& operation) {
           operation.resolve};
 }
 
-/// Repair, smoothing and refinement alike: an edit of a mesh.
+/// Repair, smoothing, simplification and refinement alike: an edit of a mesh.
 Subject subject_of(std::string family, const SmoothOperation& operation) {
   return {std::move(family),
           operation.info,
@@ -127,6 +127,8 @@ const std::vector<Subject>& subjects() {
       result.push_back(subject_of("repair", operation));
     for (const auto& operation : smooth_operations())
       result.push_back(subject_of("smooth", operation));
+    for (const auto& operation : simplify_operations())
+      result.push_back(subject_of("simplify", operation));
     for (const auto& operation : refine_operations())
       result.push_back(subject_of("refine", operation));
     return result;

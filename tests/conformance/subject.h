@@ -18,7 +18,9 @@ struct Subject {
 
   std::string name() const { return family + "/" + info.name; }
   bool takes_frames() const { return family == "average" || family == "filter"; }
-  bool takes_mesh() const { return family == "smooth" || family == "repair" || family == "refine"; }
+  bool takes_mesh() const {
+    return family == "repair" || family == "smooth" || family == "simplify" || family == "refine";
+  }
 
   /// What comes of a copy of the sample.
   Result<Outcome> outcome(const Settings& settings = {}, const Context& context = {}) const {

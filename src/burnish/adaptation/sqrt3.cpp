@@ -213,7 +213,6 @@ class Places {
 
   const TriangleMesh& mesh_;
   const RefinementZone& zone_;
-  const Trisection& plan_;
   std::vector<Ring> rings_;
   std::vector<std::uint32_t> cut_creases_;  ///< per vertex
 };

@@ -29,7 +29,7 @@ std::vector<OperationInfo> infos(std::span<const Op> list) {
 
 std::span<const std::string_view> families() {
   static constexpr std::string_view kFamilies[] = {"average",     "filter", "clean",  "merge",
-                                                   "triangulate", "repair", "smooth", "refine"};
+                                                   "triangulate", "repair", "smooth", "simplify", "refine"};
   return kFamilies;
 }
 
@@ -41,6 +41,7 @@ std::vector<OperationInfo> operations_of(std::string_view family) {
   if (family == "triangulate") return infos(triangulate_operations());
   if (family == "repair") return infos(repair_operations());
   if (family == "smooth") return infos(smooth_operations());
+  if (family == "simplify") return infos(simplify_operations());
   if (family == "refine") return infos(refine_operations());
   return {};
 }
@@ -65,6 +66,9 @@ Result<const RepairOperation*> find_repair(std::string_view name) {
 }
 Result<const SmoothOperation*> find_smooth(std::string_view name) {
   return find_in(smooth_operations(), "smooth", name);
+}
+Result<const SimplifyOperation*> find_simplify(std::string_view name) {
+  return find_in(simplify_operations(), "simplify", name);
 }
 Result<const RefineOperation*> find_refine(std::string_view name) {
   return find_in(refine_operations(), "refine", name);

@@ -48,6 +48,7 @@ using MergeOperation = Operation<Result<Created<PointCloud>>(std::span<const Poi
 using TriangulateOperation =
     Operation<Result<Created<TriangleMesh>>(const PointCloud&, const Settings&, const Context&)>;
 using RepairOperation = Operation<Result<Facts>(TriangleMesh&, const Settings&, const Context&)>;
+using SimplifyOperation = Operation<Result<Facts>(TriangleMesh&, const Settings&, const Context&)>;
 using RefineOperation = Operation<Result<Facts>(TriangleMesh&, const Settings&, const Context&)>;
 using SmoothOperation = Operation<Result<Facts>(TriangleMesh&, const Settings&, const Context&)>;
 

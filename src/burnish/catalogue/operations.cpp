@@ -2,6 +2,8 @@
 
 #include "burnish/adaptation/loop.h"
 #include "burnish/adaptation/midpoint.h"
+#include "burnish/adaptation/point_removal.h"
+#include "burnish/adaptation/quadric_collapse.h"
 #include "burnish/adaptation/split.h"
 #include "burnish/adaptation/sqrt3.h"
 #include "burnish/points/merge_cells.h"
@@ -138,6 +140,18 @@ std::span<const SmoothOperation> smooth_operations() {
                      "he_schaefer_2013"),
       edit_operation("equalize", smooth_equalize,
                      "Evens the distances to neighbours within the surface; smooths nothing.", ""),
+  };
+  return list;
+}
+
+std::span<const SimplifyOperation> simplify_operations() {
+  static const std::vector<SimplifyOperation> list{
+      edit_operation("quadric", simplify_quadric,
+                     "Edges collapse to the point nearest to the planes that meet there.",
+                     "garland_heckbert_1997"),
+      edit_operation("point_removal", simplify_point_removal,
+                     "Vertices are removed, none is moved: what is left was measured.",
+                     "garland_heckbert_1997"),
   };
   return list;
 }

@@ -15,6 +15,7 @@ std::span<const MergeOperation> merge_operations();
 std::span<const TriangulateOperation> triangulate_operations();
 std::span<const RepairOperation> repair_operations();
 std::span<const SmoothOperation> smooth_operations();
+std::span<const SimplifyOperation> simplify_operations();
 std::span<const RefineOperation> refine_operations();
 
 /// The families' names, and what the operations of one of them are; empty for an unknown family.
@@ -41,6 +42,7 @@ Result<const MergeOperation*> find_merge(std::string_view name);
 Result<const TriangulateOperation*> find_triangulate(std::string_view name);
 Result<const RepairOperation*> find_repair(std::string_view name);
 Result<const SmoothOperation*> find_smooth(std::string_view name);
+Result<const SimplifyOperation*> find_simplify(std::string_view name);
 Result<const RefineOperation*> find_refine(std::string_view name);
 
 }  // namespace burnish

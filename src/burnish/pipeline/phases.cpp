@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <type_traits>
 
 #include "burnish/adaptation/refinement.h"
 #include "burnish/base/version.h"
@@ -55,7 +56,11 @@ Result<void> run_all(std::string_view verb, const std::vector<Method>& methods, 
         [&](const auto& operation) { return run(operation, methods[i].settings, share); },
         [](const Facts& measured) { return measured; });
     if (!facts) return facts.error();
-    if (auto ok = after(i); !ok) return ok;
+    if constexpr (std::is_void_v<decltype(after(i))>) {
+      after(i);
+    } else {
+      if (auto ok = after(i); !ok) return ok;
+    }
   }
   return {};
 }
@@ -69,7 +74,7 @@ Result<void> edit(std::string_view verb, T& edited, const std::vector<Method>& m
       [&](const auto& operation, const Settings& settings, const Context& share) {
         return operation.run(edited, settings, share);
       },
-      [](std::size_t) { return Result<void>(); });
+      [](std::size_t) {});
 }
 
 /// Runs a method that makes something of `input`.
@@ -84,6 +89,26 @@ auto create(std::string_view verb, const Result<const Op*>& operation, const T& 
                  : Result<Made>(std::move(created).error());
 }
 
+/// Keeps the mesh at the moments that a report shows, where one is wanted: as it is first, then
+/// after each method, one numbered after the other also where several steps follow each other.
+class Phases {
+ public:
+  Phases(const TriangleMesh& mesh, bool wanted, Record& record)
+      : mesh_(mesh), wanted_(wanted), record_(record) {
+    if (record.phases.empty()) keep("original");
+  }
+  void keep_next() { keep(fmt::format("phase {}", record_.phases.size())); }
+
+ private:
+  void keep(std::string name) {
+    if (wanted_) record_.phases.push_back({std::move(name), mesh_, {}});
+  }
+
+  const TriangleMesh& mesh_;
+  bool wanted_;
+  Record& record_;
+};
+
 /// The record's line on a region that an operation is confined to.
 Step confining(const Region& region, const std::vector<float>& weights, const char* vertices,
                const char* help) {
@@ -95,10 +120,6 @@ Step confining(const Region& region, const std::vector<float>& weights, const ch
           {{vertices, static_cast<double>(free), ""}},
           0,
           {{"region", "region", "", "", "", help}}};
-}
-
-void keep_phase(bool wanted, std::string name, const TriangleMesh& mesh, Record& record) {
-  if (wanted) record.phases.push_back({std::move(name), mesh, {}});
 }
 
 Error in_bound(Error error) {
@@ -167,6 +188,17 @@ Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods,
   return edit("repair", mesh, methods, find_repair, record, context);
 }
 
+Result<void> simplify_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                                bool keep_phases, Record& record, const Context& context) {
+  Phases phases(mesh, keep_phases, record);
+  return run_all(
+      "simplify", methods, find_simplify, record, context,
+      [&mesh](const SimplifyOperation& operation, const Settings& settings, const Context& share) {
+        return operation.run(mesh, settings, share);
+      },
+      [&phases](std::size_t) { phases.keep_next(); });
+}
+
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
                               const SmoothingLimits& limits, bool keep_phases, Record& record,
                               const Context& context) {
@@ -185,7 +217,7 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
     if (auto known = check_noise(mesh); !known) return in_bound(known.error());
     before = mesh;
   }
-  keep_phase(keep_phases, "original", mesh, record);
+  Phases phases(mesh, keep_phases, record);
   const auto smooth = [&](const SmoothOperation& operation, const Settings& settings,
                           const Context& share) {
     if (!limits.region) return operation.run(mesh, settings, share);
@@ -194,11 +226,11 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
   };
   Context silent = context;
   silent.sink = nullptr;  // the bar belongs to the phases; to bind one takes next to no time
-  const auto after_phase = [&](std::size_t i) -> Result<void> {
+  const auto after_phase = [&](std::size_t) -> Result<void> {
     if (limits.bound) {
       if (auto done = put_back(before, mesh, *limits.bound, record, silent); !done) return done;
     }
-    keep_phase(keep_phases, fmt::format("phase {}", i + 1), mesh, record);
+    phases.keep_next();
     return {};
   };
   if (auto done = run_all("smooth", methods, find_smooth, record, context, smooth, after_phase);
@@ -211,7 +243,7 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
 Result<void> refine_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
                               const std::optional<Region>& region, bool keep_phases, Record& record,
                               const Context& context) {
-  keep_phase(keep_phases, "original", mesh, record);
+  Phases phases(mesh, keep_phases, record);
   const auto refine = [&](const RefineOperation& operation, const Settings& settings,
                           const Context& share) -> Result<Facts> {
     if (!region) return operation.run(mesh, settings, share);
@@ -224,11 +256,8 @@ Result<void> refine_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
     const TemporaryWeights confined(mesh, kRefinement, *weights);
     return operation.run(mesh, settings, share);
   };
-  const auto after_phase = [&](std::size_t i) -> Result<void> {
-    keep_phase(keep_phases, fmt::format("phase {}", i + 1), mesh, record);
-    return {};
-  };
-  return run_all("refine", methods, find_refine, record, context, refine, after_phase);
+  return run_all("refine", methods, find_refine, record, context, refine,
+                 [&phases](std::size_t) { phases.keep_next(); });
 }
 
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs) {

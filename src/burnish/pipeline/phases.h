@@ -31,6 +31,11 @@ Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& me
 Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods, Record& record,
                          const Context& context);
 
+/// With `keep_phases` the record gets the mesh after each method, as the next phase, and where it
+/// has none yet first as it is now ("original").
+Result<void> simplify_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                                bool keep_phases, Record& record, const Context& context);
+
 /// What holds a smoothing back.
 struct SmoothingLimits {
   std::optional<Region> region;           ///< world coordinates; only what lies inside moves

@@ -1,0 +1,290 @@
+#include "burnish/adaptation/decimation.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "burnish/base/parallel.h"
+
+namespace burnish {
+namespace {
+
+// What became of a vertex since the costs were found.
+constexpr std::uint8_t kMerged = 1;       ///< its quadric is another: costs of its edges are stale
+constexpr std::uint8_t kRingChanged = 2;  ///< what could not collapse may be able to now
+
+constexpr float kAnyCost = std::numeric_limits<float>::max();
+
+/// The weight of a triangle's corners beside that of its plane: keeps triangles compact where
+/// planes leave a place open.
+constexpr double kCornerWeight = 1e-6;
+/// The weight of a plane across the surface along a boundary, of the square of the edge's length.
+constexpr double kBoundaryWeight = 10;
+/// The cosine of how far a triangle may turn.
+constexpr double kLeastCosine = 0.2;
+/// The share of the vertices that go in a round: fewer come closer to the order of their costs,
+/// more take fewer rounds.
+constexpr double kRound = 0.5;
+
+}  // namespace
+
+Decimation::Decimation(const TriangleMesh& mesh, Placement placement,
+                       std::optional<DeviationBound> bound, const Context& context)
+    : half_edges_(mesh.positions.size(), mesh.triangles, context),
+      placement_(placement),
+      bound_(std::move(bound)),
+      positions_(mesh.positions.begin(), mesh.positions.end()),
+      quadrics_(mesh.positions.size(), Quadric{}),
+      costs_(3 * mesh.triangles.size()),
+      stale_(3 * mesh.triangles.size(), false),
+      state_(mesh.positions.size(), 0),
+      numbers_(mesh.triangles.size()) {
+  std::iota(numbers_.begin(), numbers_.end(), 0u);
+  if (!mesh.positions.empty()) add_triangle_quadrics(mesh);
+}
+
+void Decimation::add_triangle_quadrics(const TriangleMesh& mesh) {
+  Vec3d low = place(0), high = low;
+  for (const Vec3f& p : positions_) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min<double>(low[i], p[i]);
+      high[i] = std::max<double>(high[i], p[i]);
+    }
+  }
+  centre_ = (low + high) * .5;
+  for (Index t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3d corners[] = {place(a) - centre_, place(b) - centre_, place(c) - centre_};
+    const Vec3d twice_area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double length = norm(twice_area);
+    if (length == 0) continue;
+    const Vec3d n = twice_area / length;
+    const Quadric plane = Quadric::plane(n, dot(n, corners[0]), length / 2);
+    for (std::size_t i = 0; i < 3; ++i) {
+      quadrics_[mesh.triangles[t][i]] +=
+          plane + Quadric::point(corners[i], length / 2 * kCornerWeight);
+    }
+    for (Index i = 0; i < 3; ++i) {
+      if (half_edges_.twin(3 * t + i) != HalfEdges::kNone) continue;
+      const Vec3d edge = corners[(i + 1) % 3] - corners[i];
+      const Vec3d outwards = normalized(cross(edge, n));
+      const Quadric wall =
+          Quadric::plane(outwards, dot(outwards, corners[i]), kBoundaryWeight * squared_norm(edge));
+      quadrics_[mesh.triangles[t][i]] += wall;
+      quadrics_[mesh.triangles[t][(i + 1) % 3]] += wall;
+    }
+  }
+}
+
+Decimation::Candidate Decimation::best(Index h) const {
+  const Index a = half_edges_.origin(h), b = half_edges_.head(h);
+  const HalfEdges::Merge may = half_edges_.ends_that_may_go(h);
+  Candidate best{std::numeric_limits<double>::infinity(), {}, false};
+  if (!may.possible()) return best;
+  const Quadric q = quadrics_[a] + quadrics_[b];
+  const bool inner = half_edges_.kind(a) == HalfEdges::Kind::inner &&
+                     half_edges_.kind(b) == HalfEdges::Kind::inner;
+  if (placement_ == Placement::optimal && inner) {
+    const Vec3d at = q.least();
+    best = {std::max(0., q(at)), static_cast<Vec3f>(at + centre_), false};
+    if (is_finite(best.position)) return best;
+    best.cost = std::numeric_limits<double>::infinity();
+  }
+  if (may.origin_may_go) {
+    best = {std::max(0., q(place(b) - centre_)), positions_[b], false};
+  }
+  if (may.head_may_go) {
+    const double cost = std::max(0., q(place(a) - centre_));
+    if (cost < best.cost) best = {cost, positions_[a], true};
+  }
+  return best;
+}
+
+/// Of all edges.
+bool Decimation::find_costs(const Context& context) {
+  return parallel_for(context, costs_.size(), [this](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const auto h = static_cast<Index>(i);
+      const bool stands_for_edge = half_edges_.twin(h) > h;  // kNone is the largest
+      costs_[h] = stands_for_edge ? static_cast<float>(best(h).cost) : kNever;
+    }
+  });
+}
+
+/// A cost that about `count` edges do not exceed: some of them are looked at, chosen by the last
+/// bits of their costs, so that it does not matter in what order the edges come.
+float Decimation::cost_of_cheapest(std::size_t count) const {
+  constexpr std::uint32_t kOneIn = 16;
+  std::vector<float> some;
+  some.reserve(costs_.size() / kOneIn);
+  for (const float cost : costs_) {
+    if (std::bit_cast<std::uint32_t>(cost) % kOneIn == 0 && cost >= 0 && cost != kNever) {
+      some.push_back(cost);
+    }
+  }
+  const std::size_t rank = count / kOneIn;
+  if (rank >= some.size()) return kAnyCost;
+  std::nth_element(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(rank), some.end());
+  return some[rank];
+}
+
+/// Finds the costs of `edges` that are not known any more.
+bool Decimation::renew_costs(std::span<const Index> edges, const Context& context) {
+  return parallel_for(context, edges.size(), [&](IndexRange range) {
+    for (const Index h : edges.subspan(range.begin, range.end - range.begin)) {
+      const bool hindered = costs_[h] == kHindered;
+      if (hindered && !state_[half_edges_.origin(h)] && !state_[half_edges_.head(h)]) continue;
+      if (hindered || stale_[h]) costs_[h] = static_cast<float>(best(h).cost);
+      stale_[h] = false;
+    }
+  });
+}
+
+/// The edges that cost no more than `limit`, in order. What an edge
+/// cost before one of its ends was merged is less than what it costs now: such costs are found anew
+/// only once they are among the cheapest.
+Result<std::vector<Decimation::Choice>> Decimation::cheapest(float limit, const Context& context) {
+  std::vector<Index> edges;
+  for (Index h = 0; h < costs_.size(); ++h) {
+    if (costs_[h] <= limit) edges.push_back(h);
+  }
+  if (!renew_costs(edges, context)) return cancelled();
+  std::vector<Choice> chosen;
+  chosen.reserve(edges.size());
+  for (const Index h : edges) {
+    if (costs_[h] != kHindered && costs_[h] <= limit) chosen.push_back({costs_[h], h});
+  }
+  std::sort(chosen.begin(), chosen.end(), [](const Choice& x, const Choice& y) {
+    return x.cost != y.cost ? x.cost < y.cost : x.edge < y.edge;
+  });
+  return chosen;
+}
+
+bool Decimation::folds_around(Index v, Index other, const Vec3d& moved_to) const {
+  bool folds = false;
+  const Vec3d at = place(v);
+  half_edges_.for_each_from(v, [&](Index h) {
+    const Index x = half_edges_.head(h), y = half_edges_.apex(h);
+    if (x == other || y == other || folds) return;
+    const Vec3d px = place(x), py = place(y);
+    const Vec3d before = cross(px - at, py - at), after = cross(px - moved_to, py - moved_to);
+    const double lengths = std::sqrt(squared_norm(before) * squared_norm(after));
+    folds = !(dot(before, after) > kLeastCosine * lengths);
+  });
+  return folds;
+}
+
+bool Decimation::folds(Index h, const Candidate& candidate) const {
+  const Index a = half_edges_.origin(h), b = half_edges_.head(h);
+  const Vec3d to = static_cast<Vec3d>(candidate.position);
+  const bool a_moves = candidate.position != positions_[a];
+  const bool b_moves = candidate.position != positions_[b];
+  return (a_moves && folds_around(a, b, to)) || (b_moves && folds_around(b, a, to));
+}
+
+bool Decimation::try_collapse(Index h) {
+  const Candidate candidate = best(h);
+  if (!half_edges_.keeps_surface(h) || folds(h, candidate)) return false;
+  const Collapse collapse{h, candidate.head_goes, candidate.position};
+  if (bound_ && !bound_->accept(half_edges_, positions_, collapse)) return false;
+  make(collapse);
+  return true;
+}
+
+void Decimation::make(const Collapse& collapse) {
+  const Index a = half_edges_.origin(collapse.half_edge), b = half_edges_.head(collapse.half_edge);
+  const Index goes = collapse.head_goes ? b : a, stays = collapse.head_goes ? a : b;
+  const Vec3d along = place(goes) - place(stays);
+  const double length = squared_norm(along);
+  const double share =
+      length > 0 ? dot(static_cast<Vec3d>(collapse.position) - place(stays), along) / length : 0;
+  shares_.push_back(static_cast<float>(std::clamp(share, 0., 1.)));
+  removals_.push_back({goes, stays, bound_ ? static_cast<float>(bound_->largest()) : 0.f});
+
+  join_costs(collapse.half_edge);
+  half_edges_.collapse(collapse.half_edge, collapse.head_goes);
+  positions_[stays] = collapse.position;
+  quadrics_[stays] += quadrics_[goes];
+  state_[stays] |= kMerged;
+  half_edges_.for_each_from(stays, [&](Index from) {
+    state_[half_edges_.head(from)] |= kRingChanged;
+    state_[half_edges_.apex(from)] |= kRingChanged;
+    stale_[std::min(from, half_edges_.twin(from))] = true;
+    const Index into = HalfEdges::previous(from);
+    stale_[std::min(into, half_edges_.twin(into))] = true;
+  });
+}
+
+/// Of two edges that become one the lower cost stays, at the smaller of the half-edges left.
+void Decimation::join_costs(Index collapsing) {
+  for (const Index side : {collapsing, half_edges_.twin(collapsing)}) {
+    if (side == HalfEdges::kNone) continue;
+    const Index x = HalfEdges::next(side), y = HalfEdges::previous(side);
+    const Index beyond_x = half_edges_.twin(x), beyond_y = half_edges_.twin(y);
+    const float cost = std::min(costs_[std::min(x, beyond_x)], costs_[std::min(y, beyond_y)]);
+    for (const Index h : {side, x, y}) costs_[h] = kNever;
+    costs_[std::min(beyond_x, beyond_y)] = cost;
+    if (beyond_x != HalfEdges::kNone && beyond_y != HalfEdges::kNone) {
+      costs_[std::max(beyond_x, beyond_y)] = kNever;
+    }
+  }
+}
+
+void Decimation::compact() {
+  const LargeVector<Index> kept = half_edges_.compact();
+  for (std::size_t t = 0; t < kept.size(); ++t) {
+    numbers_[t] = numbers_[kept[t]];
+    for (std::size_t i = 0; i < 3; ++i) {
+      costs_[3 * t + i] = costs_[3 * std::size_t{kept[t]} + i];
+      stale_[3 * t + i] = stale_[3 * std::size_t{kept[t]} + i];
+    }
+  }
+  numbers_.resize(kept.size());
+  costs_.resize(3 * kept.size());
+  stale_.resize(3 * kept.size());
+  if (bound_) bound_->compact(kept);
+}
+
+std::vector<Triangle> Decimation::triangles_left() const {
+  std::vector<Triangle> left(half_edges_.triangles());
+  for (std::size_t t = 0; t < left.size(); ++t) left[t] = half_edges_.triangle(t);
+  return left;
+}
+
+/// Collapses the edges that were chosen, but for those whose costs an earlier one has changed.
+void Decimation::collapse_all(const std::vector<Choice>& chosen, std::size_t target) {
+  for (const Choice& choice : chosen) {
+    const Index h = choice.edge;
+    if (!half_edges_.is_live(h / 3)) continue;
+    if ((state_[half_edges_.origin(h)] | state_[half_edges_.head(h)]) & kMerged) continue;
+    if (!try_collapse(h)) costs_[h] = kHindered;
+    if (triangles() <= target) break;
+  }
+}
+
+Result<void> Decimation::run(std::size_t target, const Context& context) {
+  const std::size_t before = triangles();
+  Context quiet = context;
+  quiet.sink = nullptr;
+  if (!find_costs(quiet)) return cancelled();
+  while (triangles() > target) {
+    const auto round = static_cast<std::size_t>(static_cast<double>(triangles()) / 2 * kRound);
+    const float limit = cost_of_cheapest(std::clamp<std::size_t>(round, 1, triangles() - target));
+    const auto chosen = cheapest(limit, quiet);
+    if (!chosen) return chosen.error();
+    if (chosen->empty() && limit == kAnyCost) break;
+    std::fill(state_.begin(), state_.end(), 0);
+    collapse_all(*chosen, target);
+    if (triangles() < half_edges_.triangles() / 2) compact();
+    context.progress(static_cast<double>(before - triangles()) /
+                     static_cast<double>(before - target));
+    if (context.cancelled()) return cancelled();
+  }
+  compact();
+  return {};
+}
+
+}  // namespace burnish
