@@ -52,33 +52,32 @@ std::uint32_t turned(std::uint32_t corner, std::uint32_t step) {
   return corner - corner % 3 + (corner % 3 + step) % 3;
 }
 
-/// An apex by its first place among the neighbours of `into`: two a corner, in the order of the
-/// star; one that is none of them by its number behind all places. `index` is what the original
-/// triangle's number is near to.
+/// An apex by its first place among the neighbours of the vertex to be split: two a corner, in the
+/// order of the star. `near` is what the number of the returning triangle is near to.
 struct NamedApex {
-  std::uint64_t name = 0;
+  std::uint64_t place = 0;
   std::uint32_t near = 0;
 };
 
+/// `apex` is a neighbour of `into`: a removal that leaves the surface what it is cuts no edge off.
 NamedApex name_of(const GrowingMesh& mesh, std::uint32_t into, std::uint32_t apex) {
-  std::uint64_t place = 0;
+  NamedApex named;
   for (const std::uint32_t corner : mesh.stars.corners_at(into)) {
-    for (std::uint32_t step = 1; step <= 2; ++step, ++place) {
-      if (mesh.stars.vertex_at(turned(corner, step)) == apex)
-        return {place, mesh.triangle_indices[corner / 3]};
-    }
+    named.near = mesh.triangle_indices[corner / 3];
+    if (mesh.stars.vertex_at(turned(corner, 1)) == apex) break;
+    ++named.place;
+    if (mesh.stars.vertex_at(turned(corner, 2)) == apex) break;
+    ++named.place;
   }
-  return {place + apex, 0};
+  return named;
 }
 
-/// The apex that `named.name` means, and sets `named.near`.
-std::uint32_t apex_of(const GrowingMesh& mesh, std::uint32_t into, std::size_t corners,
-                      NamedApex& named) {
-  if (named.name >= 2 * corners) return static_cast<std::uint32_t>(named.name - 2 * corners);
+/// The apex at `named.place`, and sets `named.near`.
+std::uint32_t apex_of(const GrowingMesh& mesh, std::uint32_t into, NamedApex& named) {
   auto corner = mesh.stars.corners_at(into).begin();
-  for (std::uint64_t i = 0; i < named.name / 2; ++i) ++corner;
+  for (std::uint64_t i = 0; i < named.place / 2; ++i) ++corner;
   named.near = mesh.triangle_indices[*corner / 3];
-  return mesh.stars.vertex_at(turned(*corner, 1 + static_cast<std::uint32_t>(named.name % 2)));
+  return mesh.stars.vertex_at(turned(*corner, 1 + static_cast<std::uint32_t>(named.place % 2)));
 }
 
 constexpr unsigned kNoTriangle = 7;  ///< in place of the second one's order
@@ -86,11 +85,9 @@ constexpr unsigned kNoTriangle = 7;  ///< in place of the second one's order
 const char* read_triangle(Cursor& cursor, const GrowingMesh& mesh,
                           const ProgressiveColumns& columns, const OriginalSize& original,
                           const VertexSplit& split, ReturningTriangle& back) {
-  const std::size_t corners = split.moves.size();
   NamedApex apex;
-  if (!read_number(cursor, 2 * corners + mesh.stars.vertices(), apex.name))
-    return "no apex of a triangle";
-  back.apex = apex_of(mesh, split.into, corners, apex);
+  if (!read_number(cursor, 2 * split.moves.size(), apex.place)) return "no apex of a triangle";
+  back.apex = apex_of(mesh, split.into, apex);
   if (back.apex == split.into) return "a triangle names a vertex twice";
   if (!read_near(cursor, apex.near, original.triangles, back.index))
     return "no number of a triangle";
@@ -123,7 +120,7 @@ void put_split_tail(std::string& bytes, const GrowingMesh& mesh, const Progressi
   for (std::size_t i = 0; i < split.returning_count; ++i) {
     const ReturningTriangle& back = split.returning[i];
     const NamedApex apex = name_of(mesh, split.into, back.apex);
-    put_number(bytes, apex.name);
+    put_number(bytes, apex.place);
     put_near(bytes, back.index, apex.near);
     if (columns.triangle_origin()) bytes += static_cast<char>(back.origin);
     if (columns.triangle_owner()) put_near(bytes, back.owner, split.index);
