@@ -39,6 +39,7 @@ std::string_view exception(std::string_view operation, std::string_view property
 
 Companion companion(std::string_view operation, std::string_view field) {
   static const std::vector<Companion> table{
+      {"thin/fan_cloud", "distance_weight", {{"noise_sigmas", "0"}}, {}},
       {"triangulate/fan_cloud",
        "steep_angle",
        {},
