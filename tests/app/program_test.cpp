@@ -46,8 +46,8 @@ TEST(Program, SaysItsVersion) {
 }
 
 TEST(Program, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb : {"reconstruct", "triangulate", "smooth", "verify", "convert", "measure",
-                           "simulate", "reproduce", "list"}) {
+  for (const char* verb : {"reconstruct", "triangulate", "smooth", "simplify", "refine", "adapt",
+                           "verify", "convert", "measure", "simulate", "reproduce", "list"}) {
     const Outcome outcome = burnish({verb, "--help"});
     EXPECT_EQ(outcome.status, 0) << verb;
     EXPECT_NE(outcome.out.find(std::string("burnish ") + verb), std::string::npos) << outcome.out;
@@ -351,6 +351,44 @@ TEST(Program, SmoothsInARegionAlone) {
   }
 }
 
+TEST(Program, AdaptsToWhatLiesNearAMesh) {
+  const TemporaryFolder folder;
+  const TriangleMesh before = make_sphere(1, 4);
+  TriangleMesh part = make_sphere(0.3, 3);
+  for (Vec3f& p : part.positions) p.z += 1;
+  const std::string in = folder / "in.ply", near = folder / "near.ply", out = folder / "out.ply";
+  ASSERT_TRUE(write_mesh(in, before));
+  ASSERT_TRUE(write_mesh(near, part));
+  const Outcome outcome = burnish({"adapt", in, "-o", out, "--region", "near:" + near + ",15cm",
+                                   "--outside_triangles", "1000"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto after = read_mesh(out);
+  ASSERT_TRUE(after);
+  EXPECT_LT(after->triangles.size(), before.triangles.size() / 2);
+  // The distance from the finely cut ball is at most its sagitta off.
+  const auto inside = [](const TriangleMesh& mesh) {
+    return std::count_if(mesh.positions.begin(), mesh.positions.end(), [](const Vec3f& p) {
+      return std::abs(norm(p - Vec3f{0, 0, 1}) - 0.3f) < 0.149f;
+    });
+  };
+  EXPECT_GT(inside(*after), 100);
+  EXPECT_EQ(inside(*after), inside(before));
+  const Topology t = topology(*after);
+  EXPECT_TRUE(t.closed() && t.oriented());
+  EXPECT_EQ(t.euler_number, 2);
+
+  for (const auto& wrong : {std::vector<std::string>{"--region", "sphere:9,9,9,1"},
+                            {"--region", "cube:1"},
+                            {"--region", "sphere:0,0,1,1", "--inside_error", "-1mm"},
+                            {"--region", "sphere:0,0,1,1", "--outside_error", "1kg"},
+                            {}}) {
+    std::vector<std::string> words{"adapt", in, "-o", folder / "none.ply"};
+    words.insert(words.end(), wrong.begin(), wrong.end());
+    EXPECT_EQ(burnish(words).status, 2);
+  }
+  EXPECT_FALSE(fs::exists(folder / "none.ply"));
+}
+
 TEST(Program, ReconstructsWithARegionToSmooth) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_mesh(folder / "sphere.ply", make_sphere(1, 3)));
@@ -400,6 +438,31 @@ TEST(Program, SeveralScansWithoutPosesAreRefusedWithWhatToGive) {
       burnish({"reconstruct", folder / "a.ply", folder / "b.ply", "-o", folder / "out.ply"});
   EXPECT_EQ(outcome.status, 2) << outcome.err;
   EXPECT_NE(outcome.err.find("--poses"), std::string::npos) << outcome.err;
+}
+
+TEST(Program, RefinesAroundARegionAndSaysWhichVerticesAreNew) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "sphere.ply", make_sphere(1, 3)));
+  const std::string in = folder / "sphere.ply", out = folder / "out.ply";
+  const Outcome done = burnish({"refine", in, "-o", out, "-m", "sqrt3", "-m",
+                                "split:target_edge_length=5cm", "--region", "sphere:0,0,1,20cm"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_NE(done.out.find("refine sqrt3: new_vertices"), std::string::npos) << done.out;
+  const auto before = read_mesh(in), after = read_mesh(out);
+  ASSERT_TRUE(before && after);
+  EXPECT_GT(after->positions.size(), before->positions.size());
+  const Topology t = topology(*after);
+  EXPECT_TRUE(t.closed() && t.oriented());
+  EXPECT_EQ(t.euler_number, 2);
+  ASSERT_EQ(after->attributes.origin.size(), after->positions.size());
+  EXPECT_EQ(after->attributes.origin.front(), Origin::seen);
+  EXPECT_EQ(after->attributes.origin.back(), Origin::interpolated);
+  for (const char* bad : {"polish", "loop:iterations=17", "split:max_chord=-1"}) {
+    EXPECT_EQ(burnish({"refine", in, "-o", folder / "no.ply", "-m", bad}).status, 2) << bad;
+  }
+  EXPECT_EQ(burnish({"refine", in, "-o", folder / "no.ply", "--region", "sphere:9,9,9,1"}).status,
+            2);
+  EXPECT_FALSE(fs::exists(folder / "no.ply"));
 }
 
 TEST(Program, InterruptStopsWithinASecondAndLeavesNoFile) {

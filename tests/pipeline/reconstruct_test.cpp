@@ -80,6 +80,23 @@ TEST(Reconstruct, RecordsEveryStepWithEveryParameter) {
             "repair small_components, smooth auto, ");
 }
 
+TEST(Reconstruct, SimplifiesLastAndKeepsThePhases) {
+  const test::TemporaryFolder folder;
+  const auto sensor = find_sensor("kinect_v1");
+  ASSERT_TRUE(simulate_turntable(make_sphere(0.15, 4), *sensor, {.views = 3}, folder / "scan"));
+  Recipe recipe;
+  recipe.simplify = {{"quadric", {{"ratio", "0.2"}}}};
+  const auto made = made_from({folder / "scan"}, {}, recipe, {.keep_phases = true});
+  expect_sound(made, 100);
+  const std::vector<Phase>& phases = made->record.phases;
+  ASSERT_EQ(phases.size(), 3u);
+  EXPECT_EQ(phases[0].name, "original");
+  EXPECT_EQ(phases[2].name, "phase 2");
+  EXPECT_EQ(phases[2].mesh, made->mesh);
+  EXPECT_LE(phases[2].mesh.triangles.size(), phases[1].mesh.triangles.size() / 5 + 2);
+  EXPECT_EQ(made->record.steps.back().verb, "simplify");
+}
+
 TEST(Reconstruct, CropsInWorldCoordinates) {
   const test::TemporaryFolder folder;
   const auto sensor = find_sensor("kinect_v1");

@@ -17,7 +17,8 @@ struct Options {
   ReportOutput report;
   FrameTexts frames;
   int frames_at_once = FrameSteps{}.frames_at_once;
-  std::vector<std::string> average, filter, clean, merge, clean_merged, triangulate, repair, smooth;
+  std::vector<std::string> average, filter, clean, merge, clean_merged, triangulate, repair, smooth,
+      simplify;
 };
 
 const std::vector<std::string> kNone{"none"};
@@ -56,7 +57,8 @@ Result<Recipe> recipe_of(const Options& options) {
       {&recipe.clean_merged, &options.clean_merged},
       {&triangulate, &options.triangulate},
       {&recipe.repair, &options.repair},
-      {&recipe.smooth, &options.smooth}};
+      {&recipe.smooth, &options.smooth},
+      {&recipe.simplify, &options.simplify}};
   for (const auto& [step, texts] : steps) {
     if (auto laid = lay_over(*step, *texts); !laid) return laid.error();
   }
@@ -138,6 +140,9 @@ Action add_reconstruct(CLI::App& app) {
       "--smooth_region", options->smooth_region,
       "smooth only vertices in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");
   add_bound(verb, options->bound);
+  add_method(verb, "--simplify", options->simplify, "simplify",
+             "make the mesh smaller last: quadric:ratio=0.1, quadric:max_error=1mm, "
+             "quadric:max_sigmas=1; default: do not");
   verb->footer(
       "Known layouts: 7-Scenes (frame-NNN.depth.png, frame-NNN.pose.txt, camera-intrinsics.txt); "
       "numbered\n"

@@ -5,6 +5,7 @@
 #include "../verb.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/pipeline/phases.h"
+#include "burnish/pipeline/recipe.h"
 
 namespace burnish::app {
 namespace {
@@ -40,10 +41,8 @@ Result<void> simplify(const Options& options, const Session& session, const Cont
   const Settings own = settings_of(options);
   for (Method& method : *methods) {
     method.settings.insert(method.settings.end(), own.begin(), own.end());
-    const auto operation = find_simplify(method.name);
-    if (!operation) return operation.error();
-    if (auto settings = (*operation)->resolve(method.settings); !settings) return settings.error();
   }
+  if (auto known = check_simplification(*methods); !known) return known;
 
   if (auto possible = check_output(options.output); !possible) return possible;
   if (auto possible = check_report_output(options.report); !possible) return possible;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -113,15 +114,18 @@ bool Decimation::find_costs(const Context& context) {
   });
 }
 
-/// A cost that about `count` edges do not exceed: some of them are looked at.
+/// A cost that about `count` edges do not exceed: some of them are looked at, chosen by the last
+/// bits of their costs, so that it does not matter in what order the edges come.
 float Decimation::cost_of_cheapest(std::size_t count) const {
-  constexpr std::size_t kStep = 13;  // of half-edges: no multiple of 3, so that all corners come
+  constexpr std::uint32_t kOneIn = 16;
   std::vector<float> some;
-  some.reserve(costs_.size() / kStep / 2 + 1);
-  for (std::size_t h = 0; h < costs_.size(); h += kStep) {
-    if (costs_[h] >= 0 && costs_[h] != kNever) some.push_back(costs_[h]);
+  some.reserve(costs_.size() / kOneIn);
+  for (const float cost : costs_) {
+    if (std::bit_cast<std::uint32_t>(cost) % kOneIn == 0 && cost >= 0 && cost != kNever) {
+      some.push_back(cost);
+    }
   }
-  const std::size_t rank = count / kStep;
+  const std::size_t rank = count / kOneIn;
   if (rank >= some.size()) return kAnyCost;
   std::nth_element(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(rank), some.end());
   return some[rank];

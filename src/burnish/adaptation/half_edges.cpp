@@ -52,9 +52,12 @@ bool HalfEdges::pair_up(const Adjacency& leaving, const Context& context) {
 
 void HalfEdges::find_kinds(const Adjacency& leaving) {
   for (Index h = 0; h < origin_.size(); ++h) {
-    if (twin_[h] != kAmbiguous) continue;
-    kind_[origin(h)] = kind_[head(h)] = kind_[apex(h)] = Kind::locked;
-    twin_[h] = kNone;
+    if (twin_[h] == kAmbiguous) {
+      kind_[origin(h)] = kind_[head(h)] = kind_[apex(h)] = Kind::locked;
+      twin_[h] = kNone;
+    } else if (twin_[h] != kNone && twin_[twin_[h]] != h) {
+      twin_[h] = kNone;
+    }
   }
   for (Index v = 0; v < kind_.size(); ++v) {
     const auto row = leaving.row(v);

@@ -9,17 +9,16 @@ namespace {
 bool run_pass(TriangleMesh& mesh, const RefinementZone& zone, int, const Context& context) {
   const auto plan = plan_quadrisection(mesh, zone, context.part(0, 0.6));
   if (!plan) return false;
-  const std::size_t old = mesh.positions.size();
-  std::vector<Vec3f> positions = mesh.positions;
-  positions.resize(old + plan->parents.size());
+  Placement placement(mesh, plan->parents.size());
   const auto place = [&](IndexRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      const auto [a, b] = plan->parents[i];
-      positions[old + i] = midpoint(mesh.positions[a], mesh.positions[b]);
+      Blend middle;
+      for (const std::uint32_t end : plan->parents[i]) middle.add(mesh, end, 0.5);
+      placement.put(mesh.positions.size() + i, middle);
     }
   };
   return parallel_for(context.part(0.6, 0.7), plan->parents.size(), place) &&
-         quadrisect(mesh, *plan, std::move(positions), context.part(0.7, 1));
+         quadrisect(mesh, *plan, std::move(placement), context.part(0.7, 1));
 }
 
 }  // namespace

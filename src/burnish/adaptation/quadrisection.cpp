@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "burnish/adaptation/closed_pair.h"
 #include "burnish/base/parallel.h"
 
 namespace burnish {
@@ -22,7 +23,7 @@ class Cut {
 
   std::uint32_t parts() const { return cut_edges_ == 0 ? 1 : cut_sides_ + 1; }
 
-  void write(const std::vector<Vec3f>& positions, Triangle* out) const {
+  void write(const Placement& positions, Triangle* out) const {
     const auto [a, b, c] = corners_;
     const auto [ab, bc, ca] = middle_;
     if (parts() == 1) out[0] = corners_;
@@ -46,7 +47,7 @@ class Cut {
     out[1] = {middle(i), corner(i + 1), corner(i + 2)};
   }
 
-  void trisect(const std::vector<Vec3f>& positions, Triangle* out) const {
+  void trisect(const Placement& positions, Triangle* out) const {
     std::size_t i = 0;  // the side that is whole, from c to a
     while (middle(i) != kNoVertex) ++i;
     const std::uint32_t c = corner(i), a = corner(i + 1), b = corner(i + 2);
@@ -85,14 +86,14 @@ std::optional<Quadrisection> plan_quadrisection(const TriangleMesh& mesh,
     const bool cut = std::any_of(sides.begin(), sides.end(), [&](std::uint32_t side) {
       return zone.touches(mesh.triangles[side / 3]);
     });
-    if (!cut) continue;
+    if (!cut || in_closed_pair(plan.edges, static_cast<std::uint32_t>(e))) continue;
     plan.vertex_of_edge[e] = next++;
     plan.parents.push_back(plan.edges.vertices(e));
   }
   return plan;
 }
 
-bool quadrisect(TriangleMesh& mesh, const Quadrisection& plan, std::vector<Vec3f> positions,
+bool quadrisect(TriangleMesh& mesh, const Quadrisection& plan, Placement placement,
                 const Context& context) {
   const std::size_t count = mesh.triangles.size();
   std::vector<std::uint32_t> first(count + 1, 0);
@@ -107,14 +108,14 @@ bool quadrisect(TriangleMesh& mesh, const Quadrisection& plan, std::vector<Vec3f
   std::vector<Triangle> triangles(first.back());
   const bool cut = parallel_for(context.part(0.3, 1), count, [&](IndexRange range) {
     for (std::size_t t = range.begin; t < range.end; ++t) {
-      Cut(mesh.triangles[t], t, plan).write(positions, triangles.data() + first[t]);
+      Cut(mesh.triangles[t], t, plan).write(placement, triangles.data() + first[t]);
     }
   });
   if (!cut) return false;
   inherit_attributes(mesh.triangle_attributes, first);
-  append_interpolated<2>(mesh.attributes, mesh.positions.size(), plan.parents);
-  mesh.positions = std::move(positions);
   mesh.triangles = std::move(triangles);
+  append_interpolated<2>(mesh.attributes, mesh.positions.size(), plan.parents);
+  std::move(placement).apply(mesh);
   return true;
 }
 

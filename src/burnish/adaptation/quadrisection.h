@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "burnish/adaptation/blend.h"
 #include "burnish/adaptation/interpolation.h"
 #include "burnish/adaptation/refinement.h"
 #include "burnish/core/edge_table.h"
@@ -14,9 +15,10 @@ namespace burnish {
 inline constexpr std::uint32_t kNoVertex = ~0u;
 
 /// A mesh's triangles cut in four by new vertices on their edges; where those lie is left to the
-/// method. The edges of all triangles that the zone touches are cut. A triangle all of whose edges
-/// are cut becomes four, one with two cut edges three (by the shorter diagonal of what is left),
-/// one with one cut edge two: so triangles around the zone fit it.
+/// method. The edges of all triangles that the zone touches are cut, but
+/// for those of a closed surface of two triangles, which would become non-manifold. A triangle all
+/// of whose edges are cut becomes four, one with two cut edges three (by the shorter diagonal of
+/// what is left), one with one cut edge two: so triangles around the zone fit it.
 struct Quadrisection {
   EdgeTable edges;
   std::vector<std::uint32_t> vertex_of_edge;  ///< the number of the new vertex, or kNoVertex
@@ -27,15 +29,10 @@ struct Quadrisection {
 std::optional<Quadrisection> plan_quadrisection(const TriangleMesh& mesh,
                                                 const RefinementZone& zone, const Context& context);
 
-/// Cuts the triangles of `mesh`. `positions` are those of the old vertices and then of the new
-/// ones. False where the context was cancelled; `mesh` is then of no meaning. A triangle that names
-/// a vertex twice becomes four such. O(#T).
-bool quadrisect(TriangleMesh& mesh, const Quadrisection& plan, std::vector<Vec3f> positions,
+/// Cuts the triangles of `mesh` and puts its vertices where `placement` says. False where the
+/// context was cancelled; `mesh` is then of no meaning. A triangle that names a vertex twice
+/// becomes four such. O(#T).
+bool quadrisect(TriangleMesh& mesh, const Quadrisection& plan, Placement placement,
                 const Context& context);
-
-/// The place in the middle of two.
-inline Vec3f midpoint(const Vec3f& a, const Vec3f& b) {
-  return Vec3f(0.5 * (Vec3d(a) + Vec3d(b)));
-}
 
 }  // namespace burnish

@@ -1,8 +1,11 @@
 #include "burnish/catalogue/operations.h"
 
+#include "burnish/adaptation/loop.h"
 #include "burnish/adaptation/midpoint.h"
 #include "burnish/adaptation/point_removal.h"
 #include "burnish/adaptation/quadric_collapse.h"
+#include "burnish/adaptation/split.h"
+#include "burnish/adaptation/sqrt3.h"
 #include "burnish/points/merge_cells.h"
 #include "burnish/points/remove_flying_pixels.h"
 #include "burnish/points/remove_outliers.h"
@@ -155,8 +158,17 @@ std::span<const SimplifyOperation> simplify_operations() {
 
 std::span<const RefineOperation> refine_operations() {
   static const std::vector<RefineOperation> list{
+      edit_operation("loop", refine_loop,
+                     "Every triangle becomes four, and the surface smoother: a box-spline's.",
+                     "loop_1987"),
+      edit_operation("sqrt3", refine_sqrt3,
+                     "Every triangle becomes three, old edges are flipped, the surface is smoothed.",
+                     "kobbelt_2000"),
       edit_operation("midpoint", refine_midpoint,
                      "Every triangle becomes four by the middles of its edges; nothing moves.", ""),
+      edit_operation("split", refine_split,
+                     "Edges that are too long, or the surface too bent along them, are split.",
+                     "rivara_1997"),
   };
   return list;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "burnish/base/result.h"
@@ -8,23 +10,32 @@
 
 namespace burnish {
 
-/// How far each vertex follows a smoothing that is confined to `region` (world coordinates): as far
-/// as the mesh's own channel smoothing_weight says inside (1 where there is none), and 0 outside.
-/// Errors: bad_geometry where the channel cannot be; invalid_argument where no vertex is inside.
-Result<std::vector<float>> weights_inside(const TriangleMesh& mesh, const Region& region);
+/// Per vertex whether it lies in `region` (world coordinates). Errors: invalid_argument where none
+/// does.
+Result<std::vector<bool>> vertices_inside(const TriangleMesh& mesh, const Region& region);
 
-/// While it lives, the mesh's channel smoothing_weight holds `weights`; then it is as it was
-/// before, or is gone where there was none.
+/// Per vertex whether it is a corner of a triangle that has a point in `region`, which may be
+/// smaller than the triangle. Errors: invalid_argument where no triangle has.
+Result<std::vector<bool>> corners_of_triangles_in(const TriangleMesh& mesh, const Region& region);
+
+/// What an operation that heeds the vertex weights in `channel` is to heed where it is confined to
+/// some vertices: at those the mesh's own weights (1 where it has none), 0 at the others. Errors:
+/// bad_geometry where the channel cannot be.
+Result<std::vector<float>> confined_weights(const TriangleMesh& mesh, std::string_view channel,
+                                            const std::vector<bool>& inside);
+
+/// While it lives, the mesh's channel of that name holds `weights`. Then it is what it was before,
+/// if there was one: under another name it was part of whatever was done to the mesh meanwhile.
 class TemporaryWeights {
  public:
-  TemporaryWeights(TriangleMesh& mesh, std::vector<float> weights);
+  TemporaryWeights(TriangleMesh& mesh, std::string_view channel, std::vector<float> weights);
   ~TemporaryWeights();
   TemporaryWeights(const TemporaryWeights&) = delete;
   TemporaryWeights& operator=(const TemporaryWeights&) = delete;
 
  private:
   TriangleMesh& mesh_;
-  std::vector<Channel> before_;  ///< one or none
+  std::string channel_, set_aside_;
 };
 
 }  // namespace burnish

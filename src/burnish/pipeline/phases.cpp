@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <type_traits>
 
+#include "burnish/adaptation/refinement.h"
 #include "burnish/base/version.h"
 #include "burnish/pipeline/confinement.h"
 #include "burnish/pipeline/recipe.h"
+#include "burnish/smoothing/smoothing_weights.h"
 
 namespace burnish {
 namespace {
@@ -53,7 +56,11 @@ Result<void> run_all(std::string_view verb, const std::vector<Method>& methods, 
         [&](const auto& operation) { return run(operation, methods[i].settings, share); },
         [](const Facts& measured) { return measured; });
     if (!facts) return facts.error();
-    if (auto ok = after(i); !ok) return ok;
+    if constexpr (std::is_void_v<decltype(after(i))>) {
+      after(i);
+    } else {
+      if (auto ok = after(i); !ok) return ok;
+    }
   }
   return {};
 }
@@ -67,7 +74,7 @@ Result<void> edit(std::string_view verb, T& edited, const std::vector<Method>& m
       [&](const auto& operation, const Settings& settings, const Context& share) {
         return operation.run(edited, settings, share);
       },
-      [](std::size_t) { return Result<void>(); });
+      [](std::size_t) {});
 }
 
 /// Runs a method that makes something of `input`.
@@ -82,34 +89,37 @@ auto create(std::string_view verb, const Result<const Op*>& operation, const T& 
                  : Result<Made>(std::move(created).error());
 }
 
-/// Keeps the mesh at the moments that a report shows, where one is wanted.
+/// Keeps the mesh at the moments that a report shows, where one is wanted: as it is first, then
+/// after each method, one numbered after the other also where several steps follow each other.
 class Phases {
  public:
   Phases(const TriangleMesh& mesh, bool wanted, Record& record)
       : mesh_(mesh), wanted_(wanted), record_(record) {
-    keep("original");
+    if (record.phases.empty()) keep("original");
   }
+  void keep_next() { keep(fmt::format("phase {}", record_.phases.size())); }
+
+ private:
   void keep(std::string name) {
     if (wanted_) record_.phases.push_back({std::move(name), mesh_, {}});
   }
-  void keep_after(std::size_t method) { keep(fmt::format("phase {}", method + 1)); }
 
- private:
   const TriangleMesh& mesh_;
   bool wanted_;
   Record& record_;
 };
 
-/// The record's line on a region to smooth.
-Step confining(const Region& region, const std::vector<float>& weights) {
+/// The record's line on a region that an operation is confined to.
+Step confining(const Region& region, const std::vector<float>& weights, const char* vertices,
+               const char* help) {
   const auto free =
       weights.size() - static_cast<std::size_t>(std::count(weights.begin(), weights.end(), 0.0f));
   return {"confine",
           "region",
           {{"region", to_string(region)}},
-          {{"free_vertices", static_cast<double>(free), ""}},
+          {{vertices, static_cast<double>(free), ""}},
           0,
-          {{"region", "region", "", "", "", "where vertices are free to move"}}};
+          {{"region", "region", "", "", "", help}}};
 }
 
 Error in_bound(Error error) {
@@ -186,10 +196,7 @@ Result<void> simplify_in_phases(TriangleMesh& mesh, const std::vector<Method>& m
       [&mesh](const SimplifyOperation& operation, const Settings& settings, const Context& share) {
         return operation.run(mesh, settings, share);
       },
-      [&phases](std::size_t i) {
-        phases.keep_after(i);
-        return Result<void>();
-      });
+      [&phases](std::size_t) { phases.keep_next(); });
 }
 
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
@@ -197,10 +204,13 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
                               const Context& context) {
   std::vector<float> weights;
   if (limits.region) {
-    Result<std::vector<float>> inside = weights_inside(mesh, *limits.region);
-    if (!inside) return std::move(inside).error();
-    weights = *std::move(inside);
-    record.steps.push_back(confining(*limits.region, weights));
+    const Result<std::vector<bool>> inside = vertices_inside(mesh, *limits.region);
+    if (!inside) return inside.error();
+    Result<std::vector<float>> confined = confined_weights(mesh, kSmoothingWeight, *inside);
+    if (!confined) return std::move(confined).error();
+    weights = *std::move(confined);
+    record.steps.push_back(
+        confining(*limits.region, weights, "free_vertices", "where vertices are free to move"));
   }
   TriangleMesh before;
   if (limits.bound) {
@@ -211,16 +221,16 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
   const auto smooth = [&](const SmoothOperation& operation, const Settings& settings,
                           const Context& share) {
     if (!limits.region) return operation.run(mesh, settings, share);
-    const TemporaryWeights confined(mesh, weights);
+    const TemporaryWeights confined(mesh, kSmoothingWeight, weights);
     return operation.run(mesh, settings, share);
   };
   Context silent = context;
   silent.sink = nullptr;  // the bar belongs to the phases; to bind one takes next to no time
-  const auto after_phase = [&](std::size_t i) -> Result<void> {
+  const auto after_phase = [&](std::size_t) -> Result<void> {
     if (limits.bound) {
       if (auto done = put_back(before, mesh, *limits.bound, record, silent); !done) return done;
     }
-    phases.keep_after(i);
+    phases.keep_next();
     return {};
   };
   if (auto done = run_all("smooth", methods, find_smooth, record, context, smooth, after_phase);
@@ -228,6 +238,26 @@ Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& met
     return done;
   }
   return limits.bound ? certify(before, mesh, limits.bound->c, record) : Result<void>();
+}
+
+Result<void> refine_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                              const std::optional<Region>& region, bool keep_phases, Record& record,
+                              const Context& context) {
+  Phases phases(mesh, keep_phases, record);
+  const auto refine = [&](const RefineOperation& operation, const Settings& settings,
+                          const Context& share) -> Result<Facts> {
+    if (!region) return operation.run(mesh, settings, share);
+    const Result<std::vector<bool>> inside = corners_of_triangles_in(mesh, *region);
+    if (!inside) return inside.error();
+    const auto weights = confined_weights(mesh, kRefinement, *inside);
+    if (!weights) return weights.error();
+    record.steps.push_back(confining(*region, *weights, "corners_of_triangles_in_it",
+                                     "triangles that have a point in it are refined"));
+    const TemporaryWeights confined(mesh, kRefinement, *weights);
+    return operation.run(mesh, settings, share);
+  };
+  return run_all("refine", methods, find_refine, record, context, refine,
+                 [&phases](std::size_t) { phases.keep_next(); });
 }
 
 Record new_record(std::string title, std::string command, std::vector<std::string> inputs) {

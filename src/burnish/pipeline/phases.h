@@ -31,8 +31,8 @@ Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& me
 Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods, Record& record,
                          const Context& context);
 
-/// With `keep_phases` the record gets the mesh as it is now ("original") and after each method
-/// ("phase 1", ...).
+/// With `keep_phases` the record gets the mesh after each method, as the next phase, and where it
+/// has none yet first as it is now ("original").
 Result<void> simplify_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
                                 bool keep_phases, Record& record, const Context& context);
 
@@ -51,6 +51,13 @@ struct SmoothingLimits {
 /// smoothed; refuted where the certificate does not hold.
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
                               const SmoothingLimits& limits, bool keep_phases, Record& record,
+                              const Context& context);
+
+/// Makes triangles smaller, around a region (world coordinates) alone where one is given: each
+/// method refines every triangle that has a point in it, as far as a channel refinement that the
+/// mesh brings allows, and fits those around. With `keep_phases` as smooth_in_phases.
+Result<void> refine_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                              const std::optional<Region>& region, bool keep_phases, Record& record,
                               const Context& context);
 
 /// A record with its title, the command line and the versions filled in.

@@ -38,6 +38,14 @@ Result<void> check_smoothing(const std::vector<Method>& methods) {
   return check_methods(methods, find_smooth);
 }
 
+Result<void> check_simplification(const std::vector<Method>& methods) {
+  return check_methods(methods, find_simplify);
+}
+
+Result<void> check_refinement(const std::vector<Method>& methods) {
+  return check_methods(methods, find_refine);
+}
+
 Result<void> check(const Recipe& recipe) {
   const FrameSteps& frames = recipe.frames;
   if (frames.average) {
@@ -72,7 +80,8 @@ Result<void> check(const Recipe& recipe) {
                  "a region to smooth is given, but no method to smooth with",
                  {}};
   }
-  return check_smoothing(recipe.smooth);
+  if (auto ok = check_smoothing(recipe.smooth); !ok) return ok;
+  return check_simplification(recipe.simplify);
 }
 
 }  // namespace burnish

@@ -28,6 +28,7 @@ struct Recipe {
   std::vector<Method> smooth{{"auto", {}}};  ///< phase by phase
   std::optional<Region> smooth_region;    ///< world coordinates; only vertices inside are smoothed
   std::optional<NoiseBoundParams> bound;  ///< of the smoothing; none: vertices go where it wants
+  std::vector<Method> simplify{};
 };
 
 /// What bounds a smoothing, as options and records call it.
@@ -40,7 +41,9 @@ Result<NoiseBoundParams> parse_bound(std::string_view text);
 /// and a bound is not to hold vertices to depths that a filter has moved. Errors: invalid_argument.
 Result<void> check(const Recipe& recipe);
 
-/// The same for a list of smoothing methods alone.
+/// The same for a list of methods of one family alone.
 Result<void> check_smoothing(const std::vector<Method>& methods);
+Result<void> check_simplification(const std::vector<Method>& methods);
+Result<void> check_refinement(const std::vector<Method>& methods);
 
 }  // namespace burnish

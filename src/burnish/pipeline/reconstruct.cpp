@@ -222,7 +222,12 @@ Result<Reconstruction> reconstruct(const ScanInputs& inputs, const Recipe& recip
   }
   const bool keep_phases = options.keep_phases || options.truth;
   if (auto done = smooth_in_phases(*mesh, recipe.smooth, {recipe.smooth_region, recipe.bound},
-                                   keep_phases, record, context.part(0.82, 0.9));
+                                   keep_phases, record, context.part(0.82, 0.88));
+      !done) {
+    return done.error();
+  }
+  if (auto done =
+          simplify_in_phases(*mesh, recipe.simplify, keep_phases, record, context.part(0.88, 0.9));
       !done) {
     return done.error();
   }

@@ -18,8 +18,8 @@ struct Reconstruction {
   Record record;
 };
 
-/// The whole pipeline: reads the scans, cleans each, merges them, triangulates, repairs and
-/// smooths. `record` is continued (title, command and inputs are the caller's).
+/// The whole pipeline: reads the scans, cleans each, merges them, triangulates, repairs,
+/// smooths and simplifies. `record` is continued (title, command and inputs are the caller's).
 Result<Reconstruction> reconstruct(const ScanInputs& inputs, const Recipe& recipe,
                                    const ReconstructOptions& options, Record record,
                                    const Context& context = {});

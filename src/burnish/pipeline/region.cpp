@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "burnish/base/quantity.h"
+#include "burnish/spatial/closest_point.h"
 
 namespace burnish {
 namespace {
@@ -21,6 +22,27 @@ Result<std::vector<double>> parse_lengths(std::string_view text) {
   }
 }
 
+/// What is left of a polygon where `height(corner)` is not negative (Sutherland and Hodgman 1974).
+template <class Height>
+std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, Height height) {
+  std::vector<Vec3d> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3d &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+    const double start = height(from), end = height(to);
+    if (start >= 0) kept.push_back(from);
+    if ((start >= 0) != (end >= 0)) kept.push_back(from + (to - from) * (start / (start - end)));
+  }
+  return kept;
+}
+
+bool meets(const Box& box, std::vector<Vec3d> polygon) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    polygon = clipped(polygon, [&](const Vec3d& p) { return p[axis] - box.low[axis]; });
+    polygon = clipped(polygon, [&](const Vec3d& p) { return box.high[axis] - p[axis]; });
+  }
+  return !polygon.empty();
+}
+
 }  // namespace
 
 bool contains(const Region& region, const Vec3d& point) {
@@ -30,6 +52,20 @@ bool contains(const Region& region, const Vec3d& point) {
   }
   const Ball& ball = std::get<Ball>(region);
   return squared_norm(point - ball.centre) <= ball.radius * ball.radius;
+}
+
+bool meets(const Region& region, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  if (const Box* box = std::get_if<Box>(&region)) {
+    if (contains(region, a) || contains(region, b) || contains(region, c)) return true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (a[axis] < box->low[axis] && b[axis] < box->low[axis] && c[axis] < box->low[axis])
+        return false;
+      if (a[axis] > box->high[axis] && b[axis] > box->high[axis] && c[axis] > box->high[axis])
+        return false;
+    }
+    return meets(*box, {a, b, c});
+  }
+  return contains(region, closest_on_triangle(std::get<Ball>(region).centre, a, b, c));
 }
 
 Result<Region> parse_region(std::string_view text) {
