@@ -15,6 +15,7 @@ if(BURNISH_SANITIZE)
 endif()
 if(BURNISH_BUILD_FUZZERS)
   target_compile_options(burnish_flags INTERFACE -fsanitize=fuzzer-no-link)
+  target_compile_definitions(burnish_flags INTERFACE FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
 endif()
 
 # burnish_module(NAME USES module... PUBLIC library... PRIVATE library...)

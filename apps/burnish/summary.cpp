@@ -21,6 +21,12 @@ void say_steps(const Session& session, const Record& record) {
   for (const std::string& note : record.notes) say(session, "note: " + note);
 }
 
+void say_methods(const Session& session, const Record& record) {
+  for (const Step& step : record.steps) {
+    say(session, fmt::format("{} {}", step.verb, to_string(Method{step.method, step.settings})));
+  }
+}
+
 void say_comparisons(const Session& session, const Record& record) {
   const auto value = [](const Facts& facts, std::string_view key) {
     const auto found =
@@ -74,6 +80,12 @@ Result<void> save(const std::string& path, const TriangleMesh& mesh, const Sessi
   context.stage("writing " + path);
   return finish_writing(write_mesh(path, mesh, {.comments = std::move(comments)}, context), path,
                         session);
+}
+
+Result<void> save(const std::string& path, const PointCloud& cloud, const Session& session,
+                  const Context& context) {
+  context.stage("writing " + path);
+  return finish_writing(write_cloud(path, cloud, {}, context), path, session);
 }
 
 Result<void> finish_writing(const Result<WriteReport>& written, const std::string& path,

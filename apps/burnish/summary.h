@@ -9,6 +9,9 @@ namespace burnish::app {
 /// Prints what each step of a run did and how long it took, one line a step.
 void say_steps(const Session& session, const Record& record);
 
+/// Prints every step with all its settings: "thin fan_cloud:ratio=0.1,...".
+void say_methods(const Session& session, const Record& record);
+
 /// Prints a row per comparison with the true surface.
 void say_comparisons(const Session& session, const Record& record);
 
@@ -21,6 +24,10 @@ void say_certificate(const Session& session, const Record& record);
 /// Writes a mesh, with `comments` where its format has any, and prints what it could not hold.
 Result<void> save(const std::string& path, const TriangleMesh& mesh, const Session& session,
                   const Context& context, std::vector<std::string> comments = {});
+
+/// The same of a cloud.
+Result<void> save(const std::string& path, const PointCloud& cloud, const Session& session,
+                  const Context& context);
 
 /// What a file says of how it came about.
 std::vector<std::string> comments_of(const Record& record);

@@ -36,6 +36,8 @@ Action add_smooth(CLI::App& app);
 Action add_simplify(CLI::App& app);
 Action add_refine(CLI::App& app);
 Action add_adapt(CLI::App& app);
+Action add_progressive(CLI::App& app);
+Action add_extract(CLI::App& app);
 Action add_verify(CLI::App& app);
 Action add_convert(CLI::App& app);
 Action add_measure(CLI::App& app);

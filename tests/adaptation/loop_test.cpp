@@ -101,6 +101,41 @@ TEST(Loop, MakesFourTrianglesOfEachAndSixNeighboursOfNewVertices) {
   }
 }
 
+TEST(Loop, SigmaIsTheMeanOfWhatAVertexIsMadeOfWhereThatIsLarger) {
+  TriangleMesh mesh = make_grid(6, 6);
+  mesh.attributes.sigma.assign(mesh.positions.size(), 1);
+  const std::uint32_t bad = 3 * 7 + 3, neighbour = bad + 1;
+  mesh.attributes.sigma[bad] = 17;
+  ASSERT_TRUE(refine_loop(mesh));
+  EXPECT_EQ(mesh.attributes.sigma[bad], 17);
+  EXPECT_EQ(mesh.attributes.sigma[neighbour], 1 + 16.f / 16);
+  std::map<float, int> of_new;
+  for (std::size_t v = 49; v < mesh.positions.size(); ++v) ++of_new[mesh.attributes.sigma[v]];
+  EXPECT_EQ(of_new[17], 6);            // beside it: the larger parent's
+  EXPECT_EQ(of_new[1 + 16.f / 8], 6);  // across from it: it has an eighth in them
+  EXPECT_EQ(of_new.size(), 3u);
+}
+
+TEST(Loop, LeavesTheSurfaceAroundAZone) {
+  TriangleMesh mesh = make_sphere(1, 2);
+  const std::size_t old = mesh.positions.size();
+  std::vector<float> weights(old, 0);
+  weights[20] = 1;
+  mesh.attributes.channels.push_back({std::string(kRefinement), weights});
+  const TriangleMesh before = mesh;
+  ASSERT_TRUE(refine_loop(mesh));
+  std::size_t between = 0;  // new ones of edges whose ends are not in the zone
+  for (std::size_t v = old; v < mesh.positions.size(); ++v) {
+    for (const Edge& edge : edges(before)) {
+      const auto [a, b] = edge.vertices;
+      if (a == 20 || b == 20) continue;
+      between += mesh.positions[v] ==
+                 Vec3f((Vec3d(before.positions[a]) + Vec3d(before.positions[b])) / 2.0);
+    }
+  }
+  EXPECT_EQ(between, one_rings(before).row(20).size());
+}
+
 TEST(Loop, SaysWhatItDid) {
   TriangleMesh mesh = make_grid(2, 2);
   mesh.positions[4].z = 1;

@@ -49,6 +49,23 @@ TEST(Midpoint, KeepsTheSurface) {
   EXPECT_EQ(mesh.triangles.size(), 48u * 64);
 }
 
+TEST(Midpoint, TrianglesBesideTwoOfAZoneAreCutByTheShorterDiagonal) {
+  for (const float x : {0.2f, 3.8f}) {  // of the corner in the middle: that side is the shorter one
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {4, 0, 0}, {x, 3, 0}, {-3, 3, 0}, {7, 3, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}};
+    mesh = test::with_zone(mesh, {0, 0, 0, 1, 1});
+    ASSERT_TRUE(refine_midpoint(mesh));
+    EXPECT_EQ(mesh.triangles.size(), 11u);
+    const auto sides = test::sides_along_edges(mesh);
+    const std::uint32_t left = 5, right = 7;  // the middles of the edges 0 2 and 1 2
+    EXPECT_EQ(mesh.positions[left], (Vec3f{x / 2, 1.5f, 0}));
+    EXPECT_EQ(mesh.positions[right], (Vec3f{2 + x / 2, 1.5f, 0}));
+    EXPECT_EQ(sides.count({0, right}), x < 2 ? 1u : 0u);
+    EXPECT_EQ(sides.count({1, left}), x < 2 ? 0u : 1u);
+  }
+}
+
 TEST(Midpoint, TrianglesGetLargerFromAZoneOutwards) {
   // Five passes around one vertex: had a triangle that was cut in two to fit its neighbours been
   // cut again, angles would get smaller with every pass.

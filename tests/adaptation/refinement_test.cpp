@@ -2,6 +2,7 @@
 #include "burnish/adaptation/refinement.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "burnish/base/random.h"
 #include "burnish/shapes/shapes.h"
@@ -29,11 +30,34 @@ std::vector<float> random_zone(const TriangleMesh& mesh, std::uint64_t seed) {
   return weights;
 }
 
+/// A band with a half twist: however its triangles are turned, two along an edge disagree.
+TriangleMesh moebius_band() {
+  constexpr std::uint32_t kSquares = 12;
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < kSquares; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSquares;
+    for (const double across : {-0.3, 0.3}) {
+      const double radius = 1 + across * std::cos(angle / 2);
+      mesh.positions.push_back(Vec3f(
+          Vec3d{radius * std::cos(angle), radius * std::sin(angle), across * std::sin(angle / 2)}));
+    }
+    const std::uint32_t a = 2 * i, b = a + 1, turned = i + 1 == kSquares;
+    const std::uint32_t c = turned ? 1 : a + 2, d = turned ? 0 : a + 3;
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({b, d, c});
+  }
+  return mesh;
+}
+
 std::vector<TriangleMesh> surfaces() {
   TriangleMesh open = make_sphere(1, 2);
   open.triangles.erase(open.triangles.begin() + 10, open.triangles.begin() + 90);
-  return {make_sphere(1, 2), make_torus(1, 0.4, 12, 8), make_box({1, 1, 1}, 3), open,
-          make_grid(5, 4, 0.3, Diagonal::alternating)};
+  return {make_sphere(1, 2),
+          make_torus(1, 0.4, 12, 8),
+          make_box({1, 1, 1}, 3),
+          open,
+          make_grid(5, 4, 0.3, Diagonal::alternating),
+          moebius_band()};
 }
 
 TEST(Refinement, KeepsTheKindOfSurface) {
@@ -76,7 +100,7 @@ TEST(Refinement, AZoneOfAllVerticesIsNone) {
 }
 
 TEST(Refinement, NothingMovesOrIsCutFarFromAZone) {
-  const TriangleMesh mesh = make_grid(20, 20, 0.1);
+  const TriangleMesh mesh = test::with_noise(make_grid(20, 20, 0.1), 0.01, 1);
   std::vector<float> weights(mesh.positions.size(), 0);
   weights[0] = 1;
   for (const Refinement& method : refinements()) {
@@ -85,7 +109,7 @@ TEST(Refinement, NothingMovesOrIsCutFarFromAZone) {
       EXPECT_EQ(after.positions[v], mesh.positions[v]) << method.name;
     }
     for (std::size_t v = mesh.positions.size(); v < after.positions.size(); ++v) {
-      EXPECT_LT(norm(after.positions[v]), 0.31f) << method.name;
+      EXPECT_LT(norm(after.positions[v]), 0.35f) << method.name;
     }
   }
 }
@@ -246,14 +270,19 @@ TEST(Refinement, SurvivesAnyTriangles) {
     const std::size_t vertices = 2 + random.below(12);
     const std::size_t triangles = random.below(25);
     const TriangleMesh mesh = on_coarse_grid(test::random_mesh(vertices, triangles, seed));
-    for (const Refinement& method : refinements(0.05)) {
-      for (const bool confined : {false, true}) {
+    for (const bool confined : {false, true}) {
+      TriangleMesh first;
+      for (const Refinement& method : refinements(0.05)) {
         SCOPED_TRACE(method.name + ", seed " + std::to_string(seed));
         const TriangleMesh before = confined ? with_zone(mesh, random_zone(mesh, seed)) : mesh;
         const TriangleMesh after = refined(before, method);
-        EXPECT_TRUE(check(after));
+        ASSERT_TRUE(check(after));
         EXPECT_GE(after.triangles.size(), before.triangles.size());
         test::expect_no_cracks(before, after);
+        // The second pass goes on from what the first one gives.
+        const bool twice = method.name.ends_with("twice");
+        if (twice) test::expect_no_cracks(first, after);
+        first = after;
       }
     }
   }

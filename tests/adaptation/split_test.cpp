@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "burnish/adaptation/closed_pair.h"
+#include "burnish/adaptation/normal_arc.h"
 #include "burnish/base/random.h"
 #include "burnish/core/edges.h"
 #include "burnish/measure/angle_between.h"
@@ -130,6 +131,74 @@ TEST(Split, FollowsTheNormalsOfARoundThing) {
     EXPECT_LT(mesh.triangles.size(), 80 * 0.06 / chord * 4);
     EXPECT_EQ(topology(mesh).euler_number, 2);
   }
+}
+
+TEST(Split, LeavesTheSurfaceAroundAZone) {
+  TriangleMesh before = make_uv_sphere(1, 4, 8);
+  before.attributes.normals = before.positions;
+  std::vector<float> weights(before.positions.size(), 0);
+  weights[0] = 1;
+  before = test::with_zone(before, weights);
+  TriangleMesh mesh = before;
+  ASSERT_TRUE(refine_split(mesh, {.max_chord = 0.0005}));
+  const auto left = test::sides_along_edges(mesh);
+  int split = 0;  // edges outside that are in the way
+  for (const auto& [edge, sides] : test::sides_along_edges(before)) {
+    if (edge[0] == 0 || left.count(edge)) continue;
+    const Vec3f middle =
+        Vec3f((Vec3d(before.positions[edge[0]]) + Vec3d(before.positions[edge[1]])) / 2.0);
+    EXPECT_EQ(std::count(mesh.positions.begin(), mesh.positions.end(), middle), 1);
+    ++split;
+  }
+  EXPECT_GT(split, 0);
+}
+
+TEST(Split, CutsTrianglesOnTheSameCornersAlike) {
+  TriangleMesh mesh;  // two of them, and a third one along an edge
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.3f, 0.9f, 0}, {0.5f, -0.8f, 0.2f}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 1}, {1, 0, 3}};
+  ASSERT_TRUE(refine_split(mesh, {.target_edge_length = 0.1}));
+  const Topology after = topology(mesh);
+  EXPECT_GT(after.duplicate_triangles, 50u);
+  EXPECT_EQ(after.components, 1u);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    EXPECT_EQ(std::count(mesh.positions.begin(), mesh.positions.end(), mesh.positions[v]), 1) << v;
+  }
+}
+
+TEST(NormalArc, IsThatOfACircle) {
+  for (const double phi : {0.01, 0.2, 0.45}) {  // half the angle
+    const Vec3d a{-std::sin(phi), 0, std::cos(phi)}, b{std::sin(phi), 0, std::cos(phi)};
+    const NormalArc arc(2.0 * (b - a), a, b);  // on a circle of radius 2
+    EXPECT_NEAR(norm(arc.rise - Vec3d{0, 0, 2 * (1 - std::cos(phi))}), 0, 1e-15);
+    EXPECT_NEAR(norm(arc.normal - Vec3d{0, 0, 1}), 0, 1e-15);
+    const NormalArc hollow(2.0 * (a - b), a, b);
+    EXPECT_NEAR(norm(hollow.rise + arc.rise), 0, 1e-15);
+  }
+}
+
+TEST(NormalArc, GoesThroughTheMiddleOfAWave) {
+  const Vec3d normal{0.6, 0, 0.8};  // the surface falls at both ends: it must rise between them
+  const NormalArc arc({3, 0, 0}, normal, normal);
+  EXPECT_EQ(norm(arc.rise), 0);
+  EXPECT_NEAR(norm(arc.normal - Vec3d{-0.6, 0, 0.8}), 0, 1e-15);
+}
+
+TEST(NormalArc, RisesByAnEighthAtMost) {
+  Random random(1);
+  const auto direction = [&] {
+    Vec3d v;
+    for (std::size_t axis = 0; axis < 3; ++axis) v[axis] = random.uniform(-1, 1);
+    return normalized(v);
+  };
+  double highest = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3d first = direction(), second = direction(), along = 5.0 * direction();
+    highest = std::max(highest, norm(NormalArc(along, first, second).rise));
+  }
+  EXPECT_NEAR(highest, 5.0 / 8, 1e-12);
+  const NormalArc folded({1, 0, 0}, {0, 0, 1}, {0, 0, -1});
+  EXPECT_EQ(norm(folded.rise) + norm(folded.normal), 0);
 }
 
 TEST(Split, LeavesFlatPartsAloneWhereItFollowsNormals) {

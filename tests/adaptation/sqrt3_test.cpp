@@ -80,6 +80,14 @@ TEST(Sqrt3, SubdividesABoundaryAsACubicSplineEverySecondPass) {
   EXPECT_EQ(along[4], 0);
 }
 
+TEST(Sqrt3, KeepsTrianglesTogetherOfWhichSeveralSidesAreCreases) {
+  TriangleMesh mesh;  // of one that names a vertex twice all edges are
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}};
+  mesh.triangles = {{0, 0, 1}};
+  ASSERT_TRUE(refine_sqrt3(mesh, {2}));
+  EXPECT_EQ(topology(mesh).components, 1u);
+}
+
 TEST(Sqrt3, GoesToItsLimit) {
   // A vertex and the mean m of its n neighbours become (1 - w) p + w m and 1/3 p + 2/3 m: the limit
   // is (p + 3 w m) / (1 + 3 w), and what is left of p - m after k passes (2/3 - w)^k.
@@ -88,8 +96,8 @@ TEST(Sqrt3, GoesToItsLimit) {
     TriangleMesh mesh = n == 4 ? make_uv_sphere(1, 4, 2) : make_sphere(1, 0);
     const Vec3d p(mesh.positions[0]);
     Vec3d mean;
-    for (const std::uint32_t q : one_rings(mesh).row(0))
-      mean += Vec3d(mesh.positions[q]) / double(n);
+    const Adjacency rings = one_rings(mesh);
+    for (const std::uint32_t q : rings.row(0)) mean += Vec3d(mesh.positions[q]) / double(n);
     const double w = (4 - 2 * std::cos(2 * std::numbers::pi / n)) / 9;
     const Vec3d limit = (p + mean * (3 * w)) / (1 + 3 * w);
     ASSERT_TRUE(refine_sqrt3(mesh, {kPasses}));

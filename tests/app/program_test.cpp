@@ -46,8 +46,9 @@ TEST(Program, SaysItsVersion) {
 }
 
 TEST(Program, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb : {"reconstruct", "triangulate", "smooth", "simplify", "refine", "adapt",
-                           "verify", "convert", "measure", "simulate", "reproduce", "list"}) {
+  for (const char* verb :
+       {"reconstruct", "triangulate", "smooth", "simplify", "refine", "adapt", "progressive",
+        "extract", "verify", "convert", "measure", "simulate", "reproduce", "list"}) {
     const Outcome outcome = burnish({verb, "--help"});
     EXPECT_EQ(outcome.status, 0) << verb;
     EXPECT_NE(outcome.out.find(std::string("burnish ") + verb), std::string::npos) << outcome.out;
@@ -318,6 +319,43 @@ TEST(Program, MeasuresWhatIsLeftOfNoiseWhereTheTrianglesAreThoseOfTheTruth) {
   EXPECT_NE(same.out.find("\"vertex_error_m\": 0.25"), std::string::npos) << same.out;
   EXPECT_NE(other.out.find("\"coverage\""), std::string::npos) << other.out;
   EXPECT_EQ(other.out.find("\"denoising\""), std::string::npos) << other.out;
+}
+
+TEST(Program, ThinsACloudAndPrintsTheWeights) {
+  const TemporaryFolder folder;
+  PointCloud cloud;
+  cloud.positions = make_sphere(1, 3).positions;
+  cloud.attributes.sigma.assign(cloud.positions.size(), 0.001f);
+  ASSERT_TRUE(write_cloud(folder / "cloud.ply", cloud));
+  const std::string in = folder / "cloud.ply", out = folder / "thin.pcd";
+  const Outcome outcome = burnish({"simplify", in, "-o", out, "--target_points", "100", "--method",
+                                   "fan_cloud:normal_weight=2"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("distance_weight=1,normal_weight=2"), std::string::npos)
+      << outcome.out;
+  const auto thinned = read_cloud(out);
+  ASSERT_TRUE(thinned);
+  EXPECT_EQ(thinned->positions.size(), 100u);
+  EXPECT_EQ(thinned->attributes.sigma.size(), 100u);
+  const std::string part = folder / "part.ply";
+  const Outcome adapted =
+      burnish({"adapt", in, "-o", part, "--region", "sphere:0,0,1,50cm", "--outside_points", "60"});
+  ASSERT_EQ(adapted.status, 0) << adapted.err;
+  const auto focused = read_cloud(part);
+  ASSERT_TRUE(focused);
+  const auto near = [](const PointCloud& points) {
+    return std::count_if(points.positions.begin(), points.positions.end(), [](const Vec3f& p) {
+      return norm(p - Vec3f{0, 0, 1}) < 0.5f;
+    });
+  };
+  EXPECT_EQ(near(*focused), near(cloud));
+  EXPECT_EQ(focused->positions.size(), 60 + static_cast<std::size_t>(near(cloud)));
+  EXPECT_EQ(
+      burnish({"adapt", in, "-o", part, "--region", "sphere:0,0,1,1", "--outside_error", "1mm"})
+          .status,
+      2);
+  EXPECT_EQ(burnish({"simplify", in, "-o", out, "--target_triangles", "100"}).status, 2);
+  EXPECT_EQ(burnish({"simplify", in, "-o", out, "--method", "quadric"}).status, 2);
 }
 
 TEST(Program, SmoothsInARegionAlone) {

@@ -98,6 +98,28 @@ TEST(Schema, DescribesItsFields) {
   EXPECT_EQ(fields[4].default_value, "fast");
 }
 
+struct Outer {
+  int count = 1;
+  Params inner{.passes = 5};
+
+  static const Schema<Outer>& schema() {
+    static const auto schema = Schema<Outer>()
+                                   .integer("count", &Outer::count, at_least(0), "how many")
+                                   .group(&Outer::inner, Params::schema());
+    return schema;
+  }
+};
+
+TEST(Schema, HoldsTheFieldsOfAStructWithin) {
+  const auto& schema = Outer::schema();
+  ASSERT_EQ(schema.fields().size(), 6u);
+  EXPECT_EQ(schema.fields()[1].key, "passes");
+  EXPECT_EQ(schema.fields()[1].default_value, "5");
+  EXPECT_EQ(schema.parse({{"weight", "0.25"}})->inner.weight, 0.25);
+  EXPECT_FALSE(schema.parse({{"passes", "11"}}));
+  EXPECT_FALSE(schema.check({1, {.passes = -1}}));
+}
+
 TEST(Range, ContainsItsClosedEndsOnly) {
   EXPECT_TRUE(between(0, 1).contains(0));
   EXPECT_TRUE(between(0, 1).contains(1));

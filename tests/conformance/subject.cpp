@@ -34,8 +34,9 @@ Subject subject_of(const FilterOperation& operation) {
           operation.resolve};
 }
 
-Subject subject_of(const CleanOperation& operation) {
-  return {"clean",
+/// Cleaning and thinning alike: an edit of a cloud.
+Subject subject_of(std::string family, const CleanOperation& operation) {
+  return {std::move(family),
           operation.info,
           {{sample_clouds().front()}, {}},
           [&operation](Workpiece& input, const Settings& settings,
@@ -120,8 +121,10 @@ const std::vector<Subject>& subjects() {
     std::vector<Subject> result;
     for (const auto& operation : average_operations()) result.push_back(subject_of(operation));
     for (const auto& operation : filter_operations()) result.push_back(subject_of(operation));
-    for (const auto& operation : clean_operations()) result.push_back(subject_of(operation));
+    for (const auto& operation : clean_operations())
+      result.push_back(subject_of("clean", operation));
     for (const auto& operation : merge_operations()) result.push_back(subject_of(operation));
+    for (const auto& operation : thin_operations()) result.push_back(subject_of("thin", operation));
     for (const auto& operation : triangulate_operations()) result.push_back(subject_of(operation));
     for (const auto& operation : repair_operations())
       result.push_back(subject_of("repair", operation));

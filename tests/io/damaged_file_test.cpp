@@ -1,10 +1,6 @@
 // Damaged files, and files that claim more than they hold: a sound result or an error that names
 // the file and the place.
 #include <gtest/gtest.h>
-#include <malloc.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +8,7 @@
 
 #include "burnish/core/triangle_mesh.h"
 #include "samples.h"
+#include "support/peak_memory.h"
 
 namespace burnish {
 namespace {
@@ -181,29 +178,9 @@ TEST(OddFiles, GiveASoundResultOrAClearError) {
   EXPECT_GT(refused, 10u);
 }
 
-/// Reads a file in a child process and gives the most memory that this took, in bytes.
 std::size_t peak_memory_of_reading(const std::filesystem::path& path) {
-  int ends[2];
-  if (::pipe(ends) != 0) return 0;
-  ::malloc_trim(0);  // so that the child does not read into what was freed here
-  const pid_t child = ::fork();
-  if (child == 0) {
-    struct rusage before {
-    }, after{};
-    ::getrusage(RUSAGE_SELF, &before);
-    const auto file = read_geometry(path);
-    ::getrusage(RUSAGE_SELF, &after);
-    const long grown = file ? after.ru_maxrss - before.ru_maxrss : -1;
-    (void)!::write(ends[1], &grown, sizeof(grown));
-    ::_exit(0);
-  }
-  long grown = -1;
-  (void)!::read(ends[0], &grown, sizeof(grown));
-  ::close(ends[0]);
-  ::close(ends[1]);
-  ::waitpid(child, nullptr, 0);
-  EXPECT_GE(grown, 0) << "not read: " << path;
-  return static_cast<std::size_t>(grown) * 1024;
+  SCOPED_TRACE(path.string());
+  return test::peak_memory_of([&] { return read_geometry(path).has_value(); });
 }
 
 /// Facets none of whose corners are shared.

@@ -86,7 +86,7 @@ TEST(Reconstruct, SimplifiesLastAndKeepsThePhases) {
   ASSERT_TRUE(simulate_turntable(make_sphere(0.15, 4), *sensor, {.views = 3}, folder / "scan"));
   Recipe recipe;
   recipe.simplify = {{"quadric", {{"ratio", "0.2"}}}};
-  const auto made = made_from({folder / "scan"}, {}, recipe, {.keep_phases = true});
+  const auto made = made_from({folder / "scan"}, {}, recipe, {.truth = {}, .keep_phases = true});
   expect_sound(made, 100);
   const std::vector<Phase>& phases = made->record.phases;
   ASSERT_EQ(phases.size(), 3u);

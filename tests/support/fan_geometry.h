@@ -51,4 +51,29 @@ inline std::map<Triangle, int> fan_votes(const FanCloud& cloud) {
   return votes;
 }
 
+/// The cloud built anew from its active points.
+inline FanCloud built(const FanCloud& cloud) {
+  std::vector<std::uint8_t> active;
+  for (std::uint32_t p = 0; p < cloud.size(); ++p) active.push_back(cloud.active(p));
+  return FanCloud::build(cloud.positions(), cloud.normals(), cloud.params(), {}, active).value();
+}
+
+/// Bit for bit.
+inline bool same_fan(const FanCloud& a, const FanCloud& b, std::uint32_t p) {
+  const auto in_use = [](FanState s) { return s == FanState::removed ? FanState::inactive : s; };
+  return in_use(a.state(p)) == in_use(b.state(p)) && a.fan_normal(p) == b.fan_normal(p) &&
+         std::equal(a.rim(p).begin(), a.rim(p).end(), b.rim(p).begin(), b.rim(p).end());
+}
+
+inline std::size_t differing_fans(const FanCloud& a, const FanCloud& b) {
+  std::size_t count = 0;
+  for (std::uint32_t p = 0; p < a.size(); ++p) count += !same_fan(a, b, p);
+  return count;
+}
+
+/// From those of the cloud built anew.
+inline std::size_t differing_fans(const FanCloud& edited) {
+  return differing_fans(edited, built(edited));
+}
+
 }  // namespace burnish::test

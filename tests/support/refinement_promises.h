@@ -62,14 +62,34 @@ inline std::map<std::array<std::uint32_t, 2>, int> sides_along_edges(const Trian
   return sides;
 }
 
+/// Per vertex how many edges at it have an odd number of sides.
+inline std::vector<int> rim_edges(const TriangleMesh& mesh) {
+  std::vector<int> count(mesh.positions.size(), 0);
+  for (const auto& [edge, sides] : sides_along_edges(mesh)) {
+    if (sides % 2 == 0) continue;
+    ++count[edge[0]];
+    ++count[edge[1]];
+  }
+  return count;
+}
+
 /// An edge that was there is there for all triangles along it, or for none: one that is cut for
-/// some of them alone would be a crack.
+/// some of them alone would be a crack. And what the triangles' sides leave open together is the
+/// same, but for vertices put on it.
 inline void expect_no_cracks(const TriangleMesh& before, const TriangleMesh& after) {
   const auto left = sides_along_edges(after);
   for (const auto& [edge, sides] : sides_along_edges(before)) {
     const auto found = left.find(edge);
     if (found != left.end()) {
       EXPECT_EQ(found->second, sides) << edge[0] << " " << edge[1];
+    }
+  }
+  const std::vector<int> old_rim = rim_edges(before), rim = rim_edges(after);
+  for (std::size_t v = 0; v < rim.size(); ++v) {
+    if (v < old_rim.size()) {
+      EXPECT_EQ(rim[v], old_rim[v]) << v;
+    } else {
+      EXPECT_TRUE(rim[v] == 0 || rim[v] == 2) << v;
     }
   }
 }

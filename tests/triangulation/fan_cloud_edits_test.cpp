@@ -4,11 +4,13 @@
 #include <limits>
 
 #include "burnish/base/random.h"
-#include "burnish/triangulation/fan_cloud.h"
+#include "support/fan_geometry.h"
 
 // After every edit a fan cloud is, bit for bit, what building it from its active points gives.
 namespace burnish {
 namespace {
+
+using test::differing_fans;
 
 // Instrumented builds are slower by an order of magnitude and more.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -23,25 +25,6 @@ constexpr std::size_t kManyEdits = 20000;
 #else
 constexpr std::size_t kManyEdits = 1000000;
 #endif
-
-FanCloud built(const FanCloud& cloud) {
-  std::vector<std::uint8_t> active;
-  for (std::uint32_t p = 0; p < cloud.size(); ++p) active.push_back(cloud.active(p));
-  return FanCloud::build(cloud.positions(), cloud.normals(), cloud.params(), {}, active).value();
-}
-
-bool same_fan(const FanCloud& a, const FanCloud& b, std::uint32_t p) {
-  const auto in_use = [](FanState s) { return s == FanState::removed ? FanState::inactive : s; };
-  return in_use(a.state(p)) == in_use(b.state(p)) && a.fan_normal(p) == b.fan_normal(p) &&
-         std::equal(a.rim(p).begin(), a.rim(p).end(), b.rim(p).begin(), b.rim(p).end());
-}
-
-std::size_t differing_fans(const FanCloud& edited) {
-  const FanCloud fresh = built(edited);
-  std::size_t count = 0;
-  for (std::uint32_t p = 0; p < edited.size(); ++p) count += !same_fan(edited, fresh, p);
-  return count;
-}
 
 struct Oriented {
   Vec3f position, normal;

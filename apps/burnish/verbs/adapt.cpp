@@ -5,6 +5,7 @@
 #include "../verb.h"
 #include "burnish/base/quantity.h"
 #include "burnish/io/geometry_file.h"
+#include "burnish/pipeline/focus_cloud.h"
 #include "burnish/pipeline/focus_mesh.h"
 #include "burnish/pipeline/phases.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 struct Options {
   std::string input, output, region, inside_error, outside_error;
-  std::size_t outside_triangles = 0;
+  std::size_t outside_triangles = 0, outside_points = 0;
   ReportOutput report;
 };
 
@@ -42,9 +43,42 @@ Result<Focus> focus_of(const Options& options) {
   return focus;
 }
 
-Result<void> adapt(const Options& options, const Session& session, const Context& context) {
+Result<void> adapt_mesh(TriangleMesh mesh, const Options& options, Record& record,
+                        const Session& session, const Context& context) {
   const Result<Focus> focus = focus_of(options);
   if (!focus) return focus.error();
+  if (options.outside_points > 0) {
+    return Error{ErrorCode::invalid_argument,
+                 "--outside_points is for clouds, and this is a mesh; --outside_triangles would do",
+                 {}};
+  }
+  const bool keep_phases = options.report.wanted();
+  if (keep_phases) record.phases.push_back({"original", mesh, {}});
+  if (auto done = focus_mesh(mesh, options.region, *focus, record, context.part(0, 0.8)); !done) {
+    return done;
+  }
+  if (keep_phases) record.phases.push_back({"adapted", mesh, {}});
+  return save(options.output, mesh, session, context.part(0.8, 1), comments_of(record));
+}
+
+Result<void> adapt_cloud(PointCloud cloud, const Options& options, Record& record,
+                         const Session& session, const Context& context) {
+  if (!options.inside_error.empty() || !options.outside_error.empty() ||
+      options.outside_triangles > 0) {
+    return Error{ErrorCode::invalid_argument,
+                 "of a cloud only the --outside_points can be bounded, and this is one",
+                 {}};
+  }
+  if (auto done =
+          focus_cloud(cloud, options.region, options.outside_points, record, context.part(0, 0.8));
+      !done) {
+    return done;
+  }
+  say_methods(session, record);
+  return save(options.output, cloud, session, context.part(0.8, 1));
+}
+
+Result<void> adapt(const Options& options, const Session& session, const Context& context) {
   if (auto possible = check_output(options.output); !possible) return possible;
   if (auto possible = check_report_output(options.report); !possible) return possible;
   context.stage("reading " + options.input);
@@ -53,20 +87,11 @@ Result<void> adapt(const Options& options, const Session& session, const Context
 
   Record record = new_record("Adaptation of " + options.input, session.command, {options.input});
   keep_notes(options.input, *file, record);
-  Result<TriangleMesh> mesh = mesh_of(*std::move(file), options.input);
-  if (!mesh) return std::move(mesh).error();
-  const bool keep_phases = options.report.wanted();
-  if (keep_phases) record.phases.push_back({"original", *mesh, {}});
-  if (auto done = focus_mesh(*mesh, options.region, *focus, record, context.part(0.2, 0.7));
-      !done) {
-    return done;
-  }
-  if (keep_phases) record.phases.push_back({"adapted", *mesh, {}});
-  if (auto written =
-          save(options.output, *mesh, session, context.part(0.7, 0.8), comments_of(record));
-      !written) {
-    return written;
-  }
+  const Context share = context.part(0.2, 0.8);
+  const auto done = file->mesh.triangles.empty()
+                        ? adapt_cloud(cloud_of(*std::move(file)), options, record, session, share)
+                        : adapt_mesh(std::move(file->mesh), options, record, session, share);
+  if (!done) return done;
   say_steps(session, record);
   return write_report_output(options.report, record, session, context.part(0.8, 1));
 }
@@ -74,10 +99,12 @@ Result<void> adapt(const Options& options, const Session& session, const Context
 }  // namespace
 
 Action add_adapt(CLI::App& app) {
-  auto* verb =
-      app.add_subcommand("adapt", "Keep a mesh fine in a region and make the rest coarse.");
+  auto* verb = app.add_subcommand(
+      "adapt", "Keep a mesh or cloud fine in a region and make the rest coarse.");
   auto options = std::make_shared<Options>();
-  verb->add_option("IN", options->input, "the mesh: PLY, OBJ, STL, OFF")->required();
+  verb->add_option("IN", options->input,
+                   "the mesh: PLY, OBJ, STL, OFF; or the cloud: PLY, PCD, XYZ")
+      ->required();
   verb->add_option("-o,--output", options->output, "the file to write; its ending names the format")
       ->required();
   verb->add_option("--region", options->region,
@@ -86,6 +113,9 @@ Action add_adapt(CLI::App& app) {
       ->required();
   verb->add_option("--outside_triangles", options->outside_triangles,
                    "stop at so many triangles without a corner in the region")
+      ->type_name("N");
+  verb->add_option("--outside_points", options->outside_points,
+                   "of a cloud: so many points stay outside; default: half of them")
       ->type_name("N");
   verb->add_option("--outside_error", options->outside_error,
                    "outside, never farther from the original than this: 1mm");
@@ -96,6 +126,7 @@ Action add_adapt(CLI::App& app) {
   verb->footer(
       "Vertices are removed and none is moved. The rest becomes as coarse as it can without harm,\n"
       "or until the number of triangles or the error outside is reached, whichever comes first.\n"
+      "Of a cloud, those points outside go that carry least information (burnish list thin).\n"
       "Examples:\n"
       "  burnish adapt scan.ply -o face.ply --region sphere:0,0.1,0.6,8cm --outside_triangles "
       "2000\n"

@@ -9,9 +9,10 @@ namespace burnish::app {
 Action add_list(CLI::App& app) {
   auto* verb = app.add_subcommand("list", "List the methods and their parameters.");
   auto family = std::make_shared<std::string>();
-  verb->add_option("FAMILY", *family,
-                   "one of average, filter, clean, merge, triangulate, repair, smooth, refine; all "
-                   "where left out");
+  verb->add_option(
+      "FAMILY", *family,
+      "one of average, filter, clean, merge, thin, triangulate, repair, smooth, simplify, "
+      "refine; all where left out");
   verb->footer("Example:\n  burnish list smooth");
   return [family](const Session&, const Context&) -> Result<void> {
     const auto known = families();

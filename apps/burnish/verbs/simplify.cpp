@@ -11,9 +11,9 @@ namespace burnish::app {
 namespace {
 
 struct Options {
-  std::string input, output, target_triangles, ratio, max_error;
+  std::string input, output, target_triangles, target_points, ratio, max_error;
   ReportOutput report;
-  std::vector<std::string> methods{"quadric"};
+  std::vector<std::string> methods;
 };
 
 /// The settings that the verb's own options stand for.
@@ -23,6 +23,7 @@ Settings settings_of(const Options& options) {
     if (!value.empty()) settings.emplace_back(key, value);
   };
   add("target_triangles", options.target_triangles);
+  add("target_points", options.target_points);
   add("ratio", options.ratio);
   constexpr std::string_view kNoise = "noise", kSigmas = "noise:c=";
   if (options.max_error == kNoise) {
@@ -35,15 +36,42 @@ Settings settings_of(const Options& options) {
   return settings;
 }
 
-Result<void> simplify(const Options& options, const Session& session, const Context& context) {
-  Result<std::vector<Method>> methods = parse_methods(options.methods);
-  if (!methods) return methods.error();
+/// The methods asked for, or the family's usual one, with the verb's own settings.
+Result<std::vector<Method>> methods_of(const Options& options, const char* usual,
+                                       Result<void> (*check)(const std::vector<Method>&)) {
+  Result<std::vector<Method>> methods = std::vector{Method{usual, {}}};
+  if (!options.methods.empty()) methods = parse_methods(options.methods);
+  if (!methods) return methods;
   const Settings own = settings_of(options);
   for (Method& method : *methods) {
     method.settings.insert(method.settings.end(), own.begin(), own.end());
   }
-  if (auto known = check_simplification(*methods); !known) return known;
+  if (auto known = check(*methods); !known) return known.error();
+  return methods;
+}
 
+Result<void> simplify_mesh(TriangleMesh mesh, const Options& options, Record& record,
+                           const Session& session, const Context& context) {
+  const auto methods = methods_of(options, "quadric", check_simplification);
+  if (!methods) return methods.error();
+  if (auto done =
+          simplify_in_phases(mesh, *methods, options.report.wanted(), record, context.part(0, 0.8));
+      !done) {
+    return done;
+  }
+  return save(options.output, mesh, session, context.part(0.8, 1), comments_of(record));
+}
+
+Result<void> thin_points(PointCloud cloud, const Options& options, Record& record,
+                         const Session& session, const Context& context) {
+  const auto methods = methods_of(options, "fan_cloud", check_thinning);
+  if (!methods) return methods.error();
+  if (auto done = thin_cloud(cloud, *methods, record, context.part(0, 0.8)); !done) return done;
+  say_methods(session, record);
+  return save(options.output, cloud, session, context.part(0.8, 1));
+}
+
+Result<void> simplify(const Options& options, const Session& session, const Context& context) {
   if (auto possible = check_output(options.output); !possible) return possible;
   if (auto possible = check_report_output(options.report); !possible) return possible;
   context.stage("reading " + options.input);
@@ -53,18 +81,11 @@ Result<void> simplify(const Options& options, const Session& session, const Cont
   Record record =
       new_record("Simplification of " + options.input, session.command, {options.input});
   keep_notes(options.input, *file, record);
-  Result<TriangleMesh> mesh = mesh_of(*std::move(file), options.input);
-  if (!mesh) return std::move(mesh).error();
-  if (auto done = simplify_in_phases(*mesh, *methods, options.report.wanted(), record,
-                                     context.part(0.2, 0.7));
-      !done) {
-    return done;
-  }
-  if (auto written =
-          save(options.output, *mesh, session, context.part(0.7, 0.8), comments_of(record));
-      !written) {
-    return written;
-  }
+  const Context share = context.part(0.2, 0.8);
+  const auto done = file->mesh.triangles.empty()
+                        ? thin_points(cloud_of(*std::move(file)), options, record, session, share)
+                        : simplify_mesh(std::move(file->mesh), options, record, session, share);
+  if (!done) return done;
   say_steps(session, record);
   return write_report_output(options.report, record, session, context.part(0.8, 1));
 }
@@ -72,15 +93,19 @@ Result<void> simplify(const Options& options, const Session& session, const Cont
 }  // namespace
 
 Action add_simplify(CLI::App& app) {
-  auto* verb = app.add_subcommand("simplify", "Make a mesh of fewer triangles.");
+  auto* verb =
+      app.add_subcommand("simplify", "Make a mesh of fewer triangles, or a cloud of fewer points.");
   auto options = std::make_shared<Options>();
-  verb->add_option("IN", options->input, "the mesh: PLY, OBJ, STL, OFF")->required();
+  verb->add_option("IN", options->input,
+                   "the mesh: PLY, OBJ, STL, OFF; or the cloud: PLY, PCD, XYZ")
+      ->required();
   verb->add_option("-o,--output", options->output, "the file to write; its ending names the format")
       ->required();
   add_method(verb, "-m,--method", options->methods, "simplify",
-             "how; repeat it for one phase after another; default: quadric");
+             "how; repeat it for one phase after another; default: quadric, of a cloud fan_cloud");
   verb->add_option("--target_triangles", options->target_triangles, "stop at so many triangles");
-  verb->add_option("--ratio", options->ratio, "stop at this share of the triangles: 0.1");
+  verb->add_option("--target_points", options->target_points, "of a cloud: stop at so many points");
+  verb->add_option("--ratio", options->ratio, "stop at this share of the triangles or points: 0.1");
   verb->add_option("--max_error", options->max_error,
                    "never farther from the original, nor it from the result: 1mm; or noise[:c=1]: "
                    "c times each vertex's own sigma");
@@ -90,12 +115,14 @@ Action add_simplify(CLI::App& app) {
       "reached ends it. A surface never folds over, and keeps its boundaries, its orientation and\n"
       "its Euler number; places that are no surface (an edge of three triangles) stay as they "
       "are.\n"
-      "Methods:\n" +
-      methods_help("simplify") +
+      "Of a cloud, the points go that carry least information; those that are left do not move.\n"
+      "Methods for meshes:\n" +
+      methods_help("simplify") + "Methods for clouds:\n" + methods_help("thin") +
       "Examples:\n"
       "  burnish simplify scan.ply -o small.ply --ratio 0.1\n"
       "  burnish simplify scan.ply -o small.ply --max_error 1mm\n"
-      "  burnish simplify scan.ply -o small.ply --max_error noise --method point_removal");
+      "  burnish simplify scan.ply -o small.ply --max_error noise --method point_removal\n"
+      "  burnish simplify cloud.pcd -o thin.pcd --target_points 20000");
   return [options](const Session& s, const Context& c) { return simplify(*options, s, c); };
 }
 

@@ -22,7 +22,9 @@ constexpr float kAnyCost = std::numeric_limits<float>::max();
 /// planes leave a place open.
 constexpr double kCornerWeight = 1e-6;
 /// The weight of a plane across the surface along a boundary, of the square of the edge's length.
-constexpr double kBoundaryWeight = 10;
+constexpr double kBoundaryWeight = 20;
+/// The share of the planes around a vertex, beside those that it remembers.
+constexpr double kPresent = 0.8;
 /// The cosine of how far a triangle may turn.
 constexpr double kLeastCosine = 0.2;
 /// The share of the vertices that go in a round: fewer come closer to the order of their costs,
@@ -79,28 +81,31 @@ void Decimation::add_triangle_quadrics(const TriangleMesh& mesh) {
   }
 }
 
-Decimation::Candidate Decimation::best(Index h) const {
+bool Decimation::places_freely(Index h) const {
+  return placement_ == Placement::optimal &&
+         half_edges_.kind(half_edges_.origin(h)) == HalfEdges::Kind::inner &&
+         half_edges_.kind(half_edges_.head(h)) == HalfEdges::Kind::inner;
+}
+
+/// Which end should rather go, if one may.
+Decimation::End Decimation::end_that_goes(Index h) const {
   const Index a = half_edges_.origin(h), b = half_edges_.head(h);
   const HalfEdges::Merge may = half_edges_.ends_that_may_go(h);
-  Candidate best{std::numeric_limits<double>::infinity(), {}, false};
-  if (!may.possible()) return best;
   const Quadric q = quadrics_[a] + quadrics_[b];
-  const bool inner = half_edges_.kind(a) == HalfEdges::Kind::inner &&
-                     half_edges_.kind(b) == HalfEdges::Kind::inner;
-  if (placement_ == Placement::optimal && inner) {
-    const Vec3d at = q.least();
-    best = {std::max(0., q(at)), static_cast<Vec3f>(at + centre_), false};
-    if (is_finite(best.position)) return best;
-    best.cost = std::numeric_limits<double>::infinity();
-  }
-  if (may.origin_may_go) {
-    best = {std::max(0., q(place(b) - centre_)), positions_[b], false};
-  }
+  End end{std::numeric_limits<double>::infinity(), false};
+  if (may.origin_may_go) end = {std::max(0., q(place(b) - centre_)), false};
   if (may.head_may_go) {
     const double cost = std::max(0., q(place(a) - centre_));
-    if (cost < best.cost) best = {cost, positions_[a], true};
+    if (cost < end.cost) end = {cost, true};
   }
-  return best;
+  return end;
+}
+
+float Decimation::cost_of(Index h) const {
+  if (!places_freely(h)) return static_cast<float>(end_that_goes(h).cost);
+  const Quadric q = quadrics_[half_edges_.origin(h)] + quadrics_[half_edges_.head(h)];
+  const auto cost = static_cast<float>(std::max(0., q(q.least())));
+  return std::isfinite(cost) ? cost : kNever;
 }
 
 /// Of all edges.
@@ -109,7 +114,7 @@ bool Decimation::find_costs(const Context& context) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const auto h = static_cast<Index>(i);
       const bool stands_for_edge = half_edges_.twin(h) > h;  // kNone is the largest
-      costs_[h] = stands_for_edge ? static_cast<float>(best(h).cost) : kNever;
+      costs_[h] = stands_for_edge ? cost_of(h) : kNever;
     }
   });
 }
@@ -118,16 +123,18 @@ bool Decimation::find_costs(const Context& context) {
 /// bits of their costs, so that it does not matter in what order the edges come.
 float Decimation::cost_of_cheapest(std::size_t count) const {
   constexpr std::uint32_t kOneIn = 16;
-  std::vector<float> some;
-  some.reserve(costs_.size() / kOneIn);
+  // Here and below all are written and few are kept: a branch that cannot be foretold takes longer.
+  LargeVector<float> some(costs_.size());
+  std::size_t found = 0;
   for (const float cost : costs_) {
-    if (std::bit_cast<std::uint32_t>(cost) % kOneIn == 0 && cost >= 0 && cost != kNever) {
-      some.push_back(cost);
-    }
+    some[found] = cost;
+    const bool in_sample = std::bit_cast<std::uint32_t>(cost) % kOneIn == 0;
+    found += in_sample & (cost >= 0) & (cost != kNever);
   }
   const std::size_t rank = count / kOneIn;
-  if (rank >= some.size()) return kAnyCost;
-  std::nth_element(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(rank), some.end());
+  if (rank >= found) return kAnyCost;
+  const auto at = [&some](std::size_t i) { return some.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(some.begin(), at(rank), at(found));
   return some[rank];
 }
 
@@ -137,7 +144,7 @@ bool Decimation::renew_costs(std::span<const Index> edges, const Context& contex
     for (const Index h : edges.subspan(range.begin, range.end - range.begin)) {
       const bool hindered = costs_[h] == kHindered;
       if (hindered && !state_[half_edges_.origin(h)] && !state_[half_edges_.head(h)]) continue;
-      if (hindered || stale_[h]) costs_[h] = static_cast<float>(best(h).cost);
+      if (hindered || stale_[h]) costs_[h] = cost_of(h);
       stale_[h] = false;
     }
   });
@@ -147,10 +154,13 @@ bool Decimation::renew_costs(std::span<const Index> edges, const Context& contex
 /// cost before one of its ends was merged is less than what it costs now: such costs are found anew
 /// only once they are among the cheapest.
 Result<std::vector<Decimation::Choice>> Decimation::cheapest(float limit, const Context& context) {
-  std::vector<Index> edges;
+  LargeVector<Index> edges(costs_.size());
+  std::size_t found = 0;
   for (Index h = 0; h < costs_.size(); ++h) {
-    if (costs_[h] <= limit) edges.push_back(h);
+    edges[found] = h;
+    found += costs_[h] <= limit;
   }
+  edges.resize(found);
   if (!renew_costs(edges, context)) return cancelled();
   std::vector<Choice> chosen;
   chosen.reserve(edges.size());
@@ -177,18 +187,72 @@ bool Decimation::folds_around(Index v, Index other, const Vec3d& moved_to) const
   return folds;
 }
 
-bool Decimation::folds(Index h, const Candidate& candidate) const {
-  const Index a = half_edges_.origin(h), b = half_edges_.head(h);
-  const Vec3d to = static_cast<Vec3d>(candidate.position);
-  const bool a_moves = candidate.position != positions_[a];
-  const bool b_moves = candidate.position != positions_[b];
+bool Decimation::folds(const Collapse& collapse) const {
+  const Index a = half_edges_.origin(collapse.half_edge), b = half_edges_.head(collapse.half_edge);
+  const Vec3d to = static_cast<Vec3d>(collapse.position);
+  const bool a_moves = collapse.position != positions_[a];
+  const bool b_moves = collapse.position != positions_[b];
   return (a_moves && folds_around(a, b, to)) || (b_moves && folds_around(b, a, to));
 }
 
+/// The plane of the triangle of `h` and, with little weight, its centre.
+Quadric Decimation::quadric_of(Index h, Vec3d& area, double& volume) const {
+  const Vec3d x = place(half_edges_.origin(h)) - centre_;
+  const Vec3d y = place(half_edges_.head(h)) - centre_;
+  const Vec3d z = place(half_edges_.apex(h)) - centre_;
+  const Vec3d twice_area = cross(y - x, z - x);
+  area += twice_area;
+  volume += dot(twice_area, x);
+  const double length = norm(twice_area);
+  if (length == 0) return {};
+  return Quadric::plane(twice_area / length, dot(twice_area, x) / length, length / 2) +
+         Quadric::point((x + y + z) / 3., length / 2 * kCornerWeight);
+}
+
+/// Where the ends of an inner edge become one: nearest to the planes of the triangles around them
+/// as they are now, of all places that leave the volume under the surface what it is (Lindstrom and
+/// Turk 1998, section 4). Planes of triangles that are gone would draw it outwards of what is
+/// round.
+Vec3f Decimation::place_keeping_volume(Index h) const {
+  const Index a = half_edges_.origin(h), b = half_edges_.head(h);
+  Vec3d area{};
+  double volume = 0;
+  Quadric around{};
+  half_edges_.for_each_from(a, [&](Index from) { around += quadric_of(from, area, volume); });
+  half_edges_.for_each_from(b, [&](Index from) {
+    if (half_edges_.head(from) == a || half_edges_.apex(from) == a) return;
+    around += quadric_of(from, area, volume);
+  });
+  const Vec3d at = around.least_on(area, volume);
+  return static_cast<Vec3f>(at + centre_);
+}
+
+/// What the two ends of a collapsed edge stood for, and what is around the vertex that they became:
+/// the first alone remembers planes where no surface is, the second alone forgets how far it is
+/// from where it began.
+Quadric Decimation::quadric_after(Index stays, const Quadric& remembered) const {
+  if (half_edges_.kind(stays) != HalfEdges::Kind::inner) return remembered;
+  Vec3d area{};
+  double volume = 0;
+  Quadric around{};
+  half_edges_.for_each_from(stays, [&](Index h) { around += quadric_of(h, area, volume); });
+  return around * kPresent + remembered * (1 - kPresent);
+}
+
+/// Where a bound is kept, an end is a second choice: surfaces move less then.
 bool Decimation::try_collapse(Index h) {
-  const Candidate candidate = best(h);
-  if (!half_edges_.keeps_surface(h) || folds(h, candidate)) return false;
-  const Collapse collapse{h, candidate.head_goes, candidate.position};
+  if (!half_edges_.keeps_surface(h)) return false;
+  if (places_freely(h)) {
+    if (make_if_allowed({h, false, place_keeping_volume(h)})) return true;
+    if (!bound_) return false;
+  }
+  const bool head_goes = end_that_goes(h).head_goes;
+  const Index stays = head_goes ? half_edges_.origin(h) : half_edges_.head(h);
+  return make_if_allowed({h, head_goes, positions_[stays]});
+}
+
+bool Decimation::make_if_allowed(const Collapse& collapse) {
+  if (folds(collapse)) return false;
   if (bound_ && !bound_->accept(half_edges_, positions_, collapse)) return false;
   make(collapse);
   return true;
@@ -207,7 +271,7 @@ void Decimation::make(const Collapse& collapse) {
   join_costs(collapse.half_edge);
   half_edges_.collapse(collapse.half_edge, collapse.head_goes);
   positions_[stays] = collapse.position;
-  quadrics_[stays] += quadrics_[goes];
+  quadrics_[stays] = quadric_after(stays, quadrics_[stays] + quadrics_[goes]);
   state_[stays] |= kMerged;
   half_edges_.for_each_from(stays, [&](Index from) {
     state_[half_edges_.head(from)] |= kRingChanged;

@@ -45,9 +45,8 @@ class Decimation {
 
  private:
   using Index = HalfEdges::Index;
-  struct Candidate {
+  struct End {
     double cost;
-    Vec3f position;
     bool head_goes;
   };
   /// The cost of an edge that could not collapse as things were around it.
@@ -61,16 +60,22 @@ class Decimation {
   };
 
   void add_triangle_quadrics(const TriangleMesh& mesh);
-  Candidate best(Index h) const;
+  bool places_freely(Index h) const;
+  End end_that_goes(Index h) const;
+  float cost_of(Index h) const;
   bool find_costs(const Context& context);
   float cost_of_cheapest(std::size_t count) const;
   bool renew_costs(std::span<const Index> edges, const Context& context);
   Result<std::vector<Choice>> cheapest(float limit, const Context& context);
   void join_costs(Index collapsing);
-  bool folds(Index h, const Candidate& candidate) const;
+  Quadric quadric_of(Index h, Vec3d& area, double& volume) const;
+  Vec3f place_keeping_volume(Index h) const;
+  Quadric quadric_after(Index stays, const Quadric& remembered) const;
+  bool folds(const Collapse& collapse) const;
   bool folds_around(Index v, Index other, const Vec3d& moved_to) const;
   void collapse_all(const std::vector<Choice>& chosen, std::size_t target);
   bool try_collapse(Index h);
+  bool make_if_allowed(const Collapse& collapse);
   void make(const Collapse& collapse);
   void compact();
   Vec3d place(Index v) const { return static_cast<Vec3d>(positions_[v]); }

@@ -28,6 +28,9 @@ struct Quadric {
     c += q.c;
     return *this;
   }
+  friend Quadric operator*(const Quadric& q, double s) {
+    return {q.xx * s, q.xy * s, q.xz * s, q.yy * s, q.yz * s, q.zz * s, q.b * s, q.c * s};
+  }
   friend Quadric operator+(Quadric a, const Quadric& q) { return a += q; }
 
   double operator()(const Vec3d& p) const {
@@ -36,14 +39,22 @@ struct Quadric {
     return dot(ap + b * 2.0, p) + c;
   }
 
-  /// Where it is least. A must be positive definite: it is once a point has been added.
-  Vec3d least() const {
+  /// A^-1 r. A must be positive definite: it is once a point has been added.
+  Vec3d solve(const Vec3d& r) const {
     const double l11 = xx, l21 = xy / l11, l31 = xz / l11;
     const double d2 = yy - l21 * xy, e = yz - l21 * xz, l32 = e / d2;
     const double d3 = zz - l31 * xz - l32 * e;
-    const double y1 = -b.x, y2 = -b.y - l21 * y1, y3 = -b.z - l31 * y1 - l32 * y2;
+    const double y1 = r.x, y2 = r.y - l21 * y1, y3 = r.z - l31 * y1 - l32 * y2;
     const double z = y3 / d3, y = y2 / d2 - l32 * z, x = y1 / l11 - l21 * y - l31 * z;
     return {x, y, z};
+  }
+
+  /// Where it is least, everywhere and on the plane n' x = offset.
+  Vec3d least() const { return solve(-b); }
+  Vec3d least_on(const Vec3d& n, double offset) const {
+    const Vec3d free = least(), along = solve(n);
+    const double rise = dot(n, along);
+    return rise > 0 ? free + along * ((offset - dot(n, free)) / rise) : free;
   }
 };
 

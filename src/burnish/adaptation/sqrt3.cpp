@@ -161,10 +161,7 @@ double weight_of_ring(std::uint32_t neighbours) {
 class Places {
  public:
   Places(const TriangleMesh& mesh, const RefinementZone& zone, const Trisection& plan)
-      : mesh_(mesh),
-        zone_(zone),
-        plan_(plan),
-        rings_(rings_of(mesh, plan.edges(), plan.creases())) {
+      : mesh_(mesh), zone_(zone), rings_(rings_of(mesh, plan.edges(), plan.creases())) {
     cut_creases_.assign(mesh.positions.size(), 0);
     for (std::uint32_t e = 0; e < plan.edges().size(); ++e) {
       if (!plan.cut(e)) continue;
@@ -213,7 +210,6 @@ class Places {
 
   const TriangleMesh& mesh_;
   const RefinementZone& zone_;
-  const Trisection& plan_;
   std::vector<Ring> rings_;
   std::vector<std::uint32_t> cut_creases_;  ///< per vertex
 };

@@ -129,6 +129,22 @@ class Schema {
                 name_of, [name_of](const Params& p) { return !name_of(p).empty(); }});
   }
 
+  /// The fields of a struct within the struct: .group(&P::weights, Weights::schema()).
+  template <class Group>
+  Schema& group(Group Params::*member, const Schema<Group>& schema) {
+    for (std::size_t i = 0; i < schema.fields_.size(); ++i) {
+      const typename Schema<Group>::Access& inner = schema.access_[i];
+      const FieldInfo& field = schema.fields_[i];
+      add(field.key, field.type, field.unit, field.range, field.help,
+          {[member, read = inner.read](Params& p, std::string_view text) {
+             return read(p.*member, text);
+           },
+           [member, text = inner.text](const Params& p) { return text(p.*member); },
+           [member, valid = inner.valid](const Params& p) { return valid(p.*member); }});
+    }
+    return *this;
+  }
+
   const std::vector<FieldInfo>& fields() const { return fields_; }
 
   /// Whether every field is in its range. Errors: invalid_argument that names the field.
@@ -168,6 +184,9 @@ class Schema {
   }
 
  private:
+  template <class Other>
+  friend class Schema;
+
   struct Access {
     std::function<Result<void>(Params&, std::string_view)> read;
     std::function<std::string(const Params&)> text;

@@ -28,8 +28,9 @@ std::vector<OperationInfo> infos(std::span<const Op> list) {
 }  // namespace
 
 std::span<const std::string_view> families() {
-  static constexpr std::string_view kFamilies[] = {"average",     "filter", "clean",  "merge",
-                                                   "triangulate", "repair", "smooth", "simplify", "refine"};
+  static constexpr std::string_view kFamilies[] = {"average",  "filter",      "clean",  "merge",
+                                                   "thin",     "triangulate", "repair", "smooth",
+                                                   "simplify", "refine"};
   return kFamilies;
 }
 
@@ -38,6 +39,7 @@ std::vector<OperationInfo> operations_of(std::string_view family) {
   if (family == "filter") return infos(filter_operations());
   if (family == "clean") return infos(clean_operations());
   if (family == "merge") return infos(merge_operations());
+  if (family == "thin") return infos(thin_operations());
   if (family == "triangulate") return infos(triangulate_operations());
   if (family == "repair") return infos(repair_operations());
   if (family == "smooth") return infos(smooth_operations());
@@ -57,6 +59,9 @@ Result<const CleanOperation*> find_clean(std::string_view name) {
 }
 Result<const MergeOperation*> find_merge(std::string_view name) {
   return find_in(merge_operations(), "merge", name);
+}
+Result<const ThinOperation*> find_thin(std::string_view name) {
+  return find_in(thin_operations(), "thin", name);
 }
 Result<const TriangulateOperation*> find_triangulate(std::string_view name) {
   return find_in(triangulate_operations(), "triangulate", name);

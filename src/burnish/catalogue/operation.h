@@ -45,6 +45,7 @@ using FilterOperation = Operation<Result<Facts>(DepthFrame&, const Settings&, co
 using CleanOperation = Operation<Result<Facts>(PointCloud&, const Settings&, const Context&)>;
 using MergeOperation = Operation<Result<Created<PointCloud>>(std::span<const PointCloud>,
                                                              const Settings&, const Context&)>;
+using ThinOperation = Operation<Result<Facts>(PointCloud&, const Settings&, const Context&)>;
 using TriangulateOperation =
     Operation<Result<Created<TriangleMesh>>(const PointCloud&, const Settings&, const Context&)>;
 using RepairOperation = Operation<Result<Facts>(TriangleMesh&, const Settings&, const Context&)>;

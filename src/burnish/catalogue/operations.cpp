@@ -28,6 +28,7 @@
 #include "burnish/smoothing/windowed_sinc.h"
 #include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/fan_cloud_mesh.h"
+#include "burnish/triangulation/fan_thinning.h"
 #include "burnish/triangulation/global.h"
 #include "burnish/triangulation/organized.h"
 
@@ -66,6 +67,15 @@ std::span<const MergeOperation> merge_operations() {
       creation_operation("cells", merge_cells, &Merging::cloud,
                          "Points of one surface patch are averaged, weighted by their precision.",
                          ""),
+  };
+  return list;
+}
+
+std::span<const ThinOperation> thin_operations() {
+  static const std::vector<ThinOperation> list{
+      edit_operation("fan_cloud", thin_by_fans,
+                     "Points go in the order of the information they carry, as their fans tell.",
+                     "linsen_prautzsch_2003"),
   };
   return list;
 }

@@ -40,9 +40,7 @@ Error failure(const std::filesystem::path& path, int reason) {
   return {code, std::string("cannot be read: ") + std::strerror(reason), path.string()};
 }
 
-}  // namespace
-
-Result<FileBytes> read_file(const std::filesystem::path& path) {
+Result<FileBytes> map(const std::filesystem::path& path, int flags) {
   // Without O_NONBLOCK, opening a pipe that nobody writes to would wait for ever.
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   if (file.number < 0) return failure(path, errno);
@@ -57,10 +55,20 @@ Result<FileBytes> read_file(const std::filesystem::path& path) {
   }
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size == 0) return FileBytes{};
-  // Populating the map in one call costs less than taking a page fault every few pages.
-  void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file.number, 0);
+  void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | flags, file.number, 0);
   if (data == MAP_FAILED) return failure(path, errno);
   return FileBytes(static_cast<const std::byte*>(data), size);
+}
+
+}  // namespace
+
+Result<FileBytes> read_file(const std::filesystem::path& path) {
+  // Populating the map in one call costs less than taking a page fault every few pages.
+  return map(path, MAP_POPULATE);
+}
+
+Result<FileBytes> map_file(const std::filesystem::path& path) {
+  return map(path, 0);
 }
 
 }  // namespace burnish

@@ -32,4 +32,8 @@ class FileBytes {
 /// reason.
 Result<FileBytes> read_file(const std::filesystem::path& path);
 
+/// The same for a file of which only the front may be wanted: bytes come from the disk as they are
+/// looked at.
+Result<FileBytes> map_file(const std::filesystem::path& path);
+
 }  // namespace burnish

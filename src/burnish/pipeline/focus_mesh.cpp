@@ -42,32 +42,41 @@ std::size_t count_inside(const TriangleMesh& mesh, const PointTest& where) {
                     [&](const Vec3f& p) { return where(mesh.frame.origin + Vec3d(p)); }));
 }
 
-}  // namespace
+using Clock = std::chrono::steady_clock;
 
-Result<void> focus_mesh(TriangleMesh& mesh, const std::string& region, const Focus& focus,
-                        Record& record, const Context& context) {
-  const auto start = std::chrono::steady_clock::now();
+/// What is to be made of a mesh.
+struct Task {
+  const std::string& region;
+  const Focus& focus;
+  Clock::time_point start;
+  PointTest where;
+  std::size_t inside = 0;  ///< vertices in the region
+};
+
+Result<Task> make_task(const TriangleMesh& mesh, const std::string& region, const Focus& focus,
+                       const Context& context) {
+  const Clock::time_point start = Clock::now();
   context.stage("adapting");
-  const Result<PointTest> where = read_selection(region, context.part(0, 0.1));
-  if (!where) return where.error();
-  TriangleMesh result = without_unused_vertices(mesh);
-  const std::size_t inside_before = count_inside(result, *where);
-  if (inside_before == 0) {
-    return Error{ErrorCode::invalid_argument, "no vertex lies in '" + region + "'", {}};
-  }
-  const Result<std::vector<Removal>> log = removal_log(result, 0, context.part(0.1, 0.7));
-  if (!log) return log.error();
-  Result<AdaptiveMesh> adaptive =
-      AdaptiveMesh::make(std::move(result), *log, context.part(0.7, 0.9));
-  if (!adaptive) return std::move(adaptive).error();
-  if (auto done = adaptive->focus(*where, focus, context.part(0.9, 1)); !done) return done;
+  Result<PointTest> where = read_selection(region, context);
+  if (!where) return std::move(where).error();
+  const std::size_t inside = count_inside(mesh, *where);
+  if (inside > 0) return Task{region, focus, start, *std::move(where), inside};
+  return Error{ErrorCode::invalid_argument, "no vertex lies in '" + region + "'", {}};
+}
 
-  result = adaptive->mesh();
-  const std::size_t outside = triangles_outside(result, *where);
+Result<void> focus_along(TriangleMesh& mesh, std::span<const Removal> log, const Task& task,
+                         Record& record, const Context& context) {
+  const auto& [region, focus, start, where, inside_before] = task;
+  Result<AdaptiveMesh> adaptive = AdaptiveMesh::make(mesh, log, context.part(0, 0.7));
+  if (!adaptive) return std::move(adaptive).error();
+  if (auto done = adaptive->focus(where, focus, context.part(0.7, 1)); !done) return done;
+
+  TriangleMesh result = adaptive->mesh();
+  const std::size_t outside = triangles_outside(result, where);
   const auto count = [](const char* key, std::size_t n) {
     return Fact{key, static_cast<double>(n), ""};
   };
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const std::chrono::duration<double> seconds = Clock::now() - start;
   record.steps.push_back({"adapt",
                           "region",
                           settings_of(region, focus),
@@ -75,7 +84,7 @@ Result<void> focus_mesh(TriangleMesh& mesh, const std::string& region, const Foc
                            count("triangles", result.triangles.size()),
                            count("triangles_outside", outside),
                            count("vertices_inside_before", inside_before),
-                           count("vertices_inside", count_inside(result, *where)),
+                           count("vertices_inside", count_inside(result, where)),
                            {"error_bound", adaptive->error(), "m"}},
                           seconds.count(),
                           {}});
@@ -87,6 +96,28 @@ Result<void> focus_mesh(TriangleMesh& mesh, const std::string& region, const Foc
   }
   mesh = std::move(result);
   return {};
+}
+
+}  // namespace
+
+Result<void> focus_mesh(TriangleMesh& mesh, const std::string& region, const Focus& focus,
+                        Record& record, const Context& context) {
+  TriangleMesh result = without_unused_vertices(mesh);
+  const Result<Task> task = make_task(result, region, focus, context.part(0, 0.1));
+  if (!task) return task.error();
+  const Result<std::vector<Removal>> log = removal_log(result, 0, context.part(0.1, 0.7));
+  if (!log) return log.error();
+  if (auto done = focus_along(result, *log, *task, record, context.part(0.7, 1)); !done)
+    return done;
+  mesh = std::move(result);
+  return {};
+}
+
+Result<void> focus_mesh(TriangleMesh& mesh, std::span<const Removal> log, const std::string& region,
+                        const Focus& focus, Record& record, const Context& context) {
+  const Result<Task> task = make_task(mesh, region, focus, context.part(0, 0.3));
+  if (!task) return task.error();
+  return focus_along(mesh, log, *task, record, context.part(0.3, 1));
 }
 
 }  // namespace burnish

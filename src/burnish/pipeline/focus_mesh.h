@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "burnish/adaptation/adaptive_mesh.h"
@@ -14,5 +15,9 @@ namespace burnish {
 /// invalid_argument where no vertex lies in the region; cancelled; `mesh` is then unchanged.
 Result<void> focus_mesh(TriangleMesh& mesh, const std::string& region, const Focus& focus,
                         Record& record, const Context& context = {});
+
+/// The same along a log of removals that `mesh` came with; vertices without a triangle stay.
+Result<void> focus_mesh(TriangleMesh& mesh, std::span<const Removal> log, const std::string& region,
+                        const Focus& focus, Record& record, const Context& context = {});
 
 }  // namespace burnish

@@ -171,6 +171,11 @@ Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method
   return create("merge", find_merge(method.name), clouds, method, record, context);
 }
 
+Result<void> thin_cloud(PointCloud& cloud, const std::vector<Method>& methods, Record& record,
+                        const Context& context) {
+  return edit("thin", cloud, methods, find_thin, record, context);
+}
+
 Result<TriangleMesh> triangulate_cloud(const PointCloud& cloud, const Method& method,
                                        Record& record, const Context& context) {
   auto mesh = create("triangulate", find_triangulate(method.name), cloud, method, record, context);

@@ -42,6 +42,10 @@ Result<void> check_simplification(const std::vector<Method>& methods) {
   return check_methods(methods, find_simplify);
 }
 
+Result<void> check_thinning(const std::vector<Method>& methods) {
+  return check_methods(methods, find_thin);
+}
+
 Result<void> check_refinement(const std::vector<Method>& methods) {
   return check_methods(methods, find_refine);
 }

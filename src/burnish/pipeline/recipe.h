@@ -44,6 +44,7 @@ Result<void> check(const Recipe& recipe);
 /// The same for a list of methods of one family alone.
 Result<void> check_smoothing(const std::vector<Method>& methods);
 Result<void> check_simplification(const std::vector<Method>& methods);
+Result<void> check_thinning(const std::vector<Method>& methods);
 Result<void> check_refinement(const std::vector<Method>& methods);
 
 }  // namespace burnish

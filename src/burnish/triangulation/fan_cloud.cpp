@@ -214,6 +214,7 @@ std::optional<std::uint32_t> FanCloud::first_at(const Vec3f& place) {
 
 void FanCloud::activate(std::uint32_t p) {
   const Vec3f& place = positions_[p];
+  renewed_.clear();
   if (const auto first = first_at(place)) {
     const std::uint32_t second = std::max(p, *first);
     if (p > *first) {
@@ -231,6 +232,7 @@ void FanCloud::activate(std::uint32_t p) {
 
 void FanCloud::deactivate(std::uint32_t p) {
   const Vec3f& place = positions_[p];
+  renewed_.clear();
   if (states_[p] == FanState::duplicate) {
     duplicates_.erase({place_of(place), p});
     states_[p] = FanState::inactive;
@@ -254,13 +256,12 @@ void FanCloud::clear_fan(std::uint32_t p, FanState state) {
 
 /// A point that was just inserted is among those that reach its place.
 void FanCloud::renew_fans_around(const Vec3f& place) {
-  std::vector<std::uint32_t> touched;
-  octree().reaching(place, touched);
+  octree().reaching(place, renewed_);
   FanBuilder builder(params_,
                      [this](std::uint32_t p, std::size_t count, std::vector<Neighbour>& found) {
                        octree_->nearest(positions_[p], count, found);
                      });
-  for (const std::uint32_t p : touched) {
+  for (const std::uint32_t p : renewed_) {
     const Fan& fan = builder.build(p, points());
     rims_.assign(p, fan.rim);
     fan_normals_[p] = fan.normal;

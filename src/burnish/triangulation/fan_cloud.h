@@ -67,6 +67,14 @@ class FanCloud {
   Result<void> remove(std::uint32_t p);
   /// Lets a point take part, or not. Errors: invalid_argument where there is no such point.
   Result<void> set_active(std::uint32_t p, bool active);
+  /// The points whose fans the last edit built, in no order.
+  std::span<const std::uint32_t> renewed() const { return renewed_; }
+
+  /// The active points nearest to a place, of those in one place the first, as PointOctree::nearest
+  /// gives them.
+  void nearest(const Vec3f& place, std::size_t count, std::vector<Neighbour>& found) {
+    octree().nearest(place, count, found);
+  }
 
  private:
   FanCloud() = default;
@@ -91,7 +99,7 @@ class FanCloud {
   std::vector<double> squared_reaches_;
   IndexLists rims_;
   std::set<std::pair<Place, std::uint32_t>> duplicates_;  ///< active, but not the first in place
-  std::vector<std::uint32_t> removed_;
+  std::vector<std::uint32_t> removed_, renewed_;
   std::optional<PointOctree>
       octree_;  ///< of the points that have a fan or might; from the first edit
 };
