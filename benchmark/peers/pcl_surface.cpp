@@ -77,7 +77,7 @@ static int organized(char** argv) {
   for (const auto& p : *cloud) {
     positions.push_back(std::isfinite(p.z) ? Point{p.x, p.y, p.z} : Point{0, 0, 0});
   }
-  write_surface(argv[2], surface_of(std::move(positions), polygons));
+  write_ply(argv[2], surface_of(std::move(positions), polygons));
   return 0;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "plain_mesh.h"
 #include "stopwatch.h"
 
 // What all programs that make a surface from points share: reading the points, the clock, and
@@ -23,10 +24,7 @@ struct Points {
   std::vector<Point> normals;  ///< as many, or none
 };
 
-struct Surface {
-  std::vector<Point> positions;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
+using Surface = PlainMesh;
 
 /// The vertices of a binary little-endian PLY whose vertices come first.
 inline Points read_points(const char* path) {
@@ -68,19 +66,6 @@ inline Points read_points(const char* path) {
   return points;
 }
 
-inline void write_surface(const char* path, const Surface& surface) {
-  std::ofstream file(path, std::ios::binary);
-  file << "ply\nformat binary_little_endian 1.0\nelement vertex " << surface.positions.size()
-       << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
-       << surface.triangles.size() << "\nproperty list uchar uint vertex_indices\nend_header\n";
-  file.write(reinterpret_cast<const char*>(surface.positions.data()),
-             static_cast<std::streamsize>(surface.positions.size() * sizeof(Point)));
-  for (const auto& triangle : surface.triangles) {
-    file.put(3);
-    file.write(reinterpret_cast<const char*>(triangle.data()), sizeof(triangle));
-  }
-}
-
 /// PROGRAM IN OUT ...: reads points, makes a surface of them, prints how long that took and writes
 /// it. `prepare(points)` puts them into the library's own types before the clock starts;
 /// `build(prepared)` is what is timed; `finish(built)` gives the Surface.
@@ -91,6 +76,6 @@ int run_peer(char** argv, Prepare prepare, Build build, Finish finish) {
   const Stopwatch stopwatch;
   auto built = build(prepared);
   stopwatch.print();
-  write_surface(argv[2], finish(built));
+  write_ply(argv[2], finish(built));
   return 0;
 }
