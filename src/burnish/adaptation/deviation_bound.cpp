@@ -30,6 +30,14 @@ HalfEdges::Index other_along_boundary(const HalfEdges& half_edges, HalfEdges::In
   return first == one ? last : first;
 }
 
+/// The triangle next to the only one that the vertex `v` has.
+HalfEdges::Index beyond_ear(const HalfEdges& half_edges, HalfEdges::Index v) {
+  HalfEdges::Index beyond = HalfEdges::kNone;
+  half_edges.for_each_from(
+      v, [&](HalfEdges::Index h) { beyond = half_edges.twin(HalfEdges::next(h)) / 3; });
+  return beyond;
+}
+
 }  // namespace
 
 std::uint32_t DeviationBound::point_of(Index v, const LargeVector<Vec3f>& positions) {
@@ -105,8 +113,18 @@ bool DeviationBound::accept(const HalfEdges& half_edges, const LargeVector<Vec3f
     new_triangles_.push_back(old_triangles_[i]);
   }
 
-  const std::span<const double> errors = patch_.errors_after();
-  if (errors.empty()) return false;
+  // An ear goes without leaving a triangle: the one beyond its inner edge stands for it then.
+  std::span<const double> errors;
+  double ear = 0;
+  if (new_triangles_.empty()) {
+    const Index beyond = beyond_ear(half_edges, goes);
+    old_triangles_.push_back(beyond);
+    new_triangles_.push_back(beyond);
+    ear = std::max<double>(errors_[beyond], patch_.errors_before.front());
+    errors = {&ear, 1};
+  } else {
+    errors = patch_.errors_after();
+  }
   float limit = std::numeric_limits<float>::infinity();
   for (const Index t : old_triangles_) limit = std::min(limit, limits_[t]);
   for (const double error : errors) {

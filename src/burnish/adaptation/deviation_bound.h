@@ -23,9 +23,8 @@ class DeviationBound {
   explicit DeviationBound(std::vector<float> limits)
       : errors_(limits.size(), 0.f), limits_(std::move(limits)) {}
 
-  /// Whether the bounds keep to their limits if `collapse` is made; then they are as after it.
-  /// Refused as well where there is no bound: where the triangles around, before or after, are not
-  /// all seen from one side along one direction. A vertex on the boundary may only go along it, and
+  /// Whether the bounds keep to their limits if `collapse` is made; then they are as after it. A
+  /// vertex on the boundary may only go along it, and
   /// one that others are merged into at a boundary must stay in its place.
   bool accept(const HalfEdges& half_edges, const LargeVector<Vec3f>& positions,
               const Collapse& collapse);

@@ -137,18 +137,36 @@ bool PatchDeviation::meet_at_inner_points() {
   return true;
 }
 
-std::span<const double> PatchDeviation::errors_after() {
-  sums_.clear();
-  if (!project()) return sums_;
+bool PatchDeviation::lay_over() {
+  if (!project()) return false;
   inherited_.assign(after.triangles.size(), 0);
   distances_.assign(after.triangles.size(), 0);
   find_inner_edges(before, edges_before_);
   find_inner_edges(after, edges_after_);
   meet_along_outline();
   meet_at_crossings();
-  if (!meet_at_inner_points()) return sums_;
-  for (std::size_t j = 0; j < after.triangles.size(); ++j) {
-    sums_.push_back(inherited_[j] + distances_[j]);
+  return meet_at_inner_points();
+}
+
+double PatchDeviation::longest_edge() const {
+  double longest = 0;
+  for (const Patch* patch : {&before, &after}) {
+    for (const Corners& c : patch->triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        longest = std::max(longest, norm(points[c[i]] - points[c[(i + 1) % 3]]));
+      }
+    }
+  }
+  return longest;
+}
+
+std::span<const double> PatchDeviation::errors_after() {
+  if (lay_over()) {
+    sums_.resize(after.triangles.size());
+    for (std::size_t j = 0; j < sums_.size(); ++j) sums_[j] = inherited_[j] + distances_[j];
+  } else {
+    const double largest = *std::max_element(errors_before.begin(), errors_before.end());
+    sums_.assign(after.triangles.size(), largest + longest_edge());
   }
   return sums_;
 }

@@ -29,8 +29,9 @@ class PatchDeviation {
   std::vector<double> errors_before;
 
   /// Per triangle of `after` the same: what it was where it lies over `before`, and the distance
-  /// between the two there. Empty where no direction shows both without a fold: then there is no
-  /// bound. O(#before #after).
+  /// between the two there. Where no direction shows both without a fold, the largest of what it
+  /// was and the longest edge: no place of a patch is farther than that from a vertex of the
+  /// outline, which is in both. O(#before #after).
   std::span<const double> errors_after();
 
  private:
@@ -42,12 +43,14 @@ class PatchDeviation {
     std::array<std::uint32_t, 2> triangles;
   };
 
+  bool lay_over();
   bool project();
   void find_inner_edges(const Patch& patch, std::vector<InnerEdge>& edges) const;
   void meet(std::uint32_t triangle_after, std::uint32_t triangle_before, double distance);
   void meet_along_outline();
   void meet_at_crossings();
   bool meet_at_inner_points();
+  double longest_edge() const;
 
   std::vector<Point> flat_;
   std::vector<InnerEdge> edges_before_, edges_after_;
