@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -125,6 +126,10 @@ TEST_P(SimplificationBy, ABoundInSigmasIsEachVertexsOwn) {
   EXPECT_GT(left(mesh, precise), left(model, precise) / 2);
   EXPECT_LT(left(mesh, coarse), left(model, coarse) / 5);
 
+  model.attributes.sigma[7] = std::numeric_limits<float>::quiet_NaN();
+  const auto nowhere = GetParam().run(model, {.max_sigmas = 2}, {});
+  EXPECT_EQ(nowhere.error().code, ErrorCode::bad_geometry);
+  EXPECT_EQ(nowhere.error().where, "vertex 7");
   TriangleMesh unknown = make_grid(4, 4);
   EXPECT_EQ(GetParam().run(unknown, {.max_sigmas = 1}, {}).error().code, ErrorCode::bad_geometry);
 }

@@ -1,6 +1,7 @@
 // The program as a user meets it: exit statuses, messages, help, Ctrl-C, and the main job.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "burnish/catalogue/operations.h"
@@ -53,6 +54,20 @@ TEST(Program, EveryVerbHasHelpWithAnExample) {
     EXPECT_EQ(outcome.status, 0) << verb;
     EXPECT_NE(outcome.out.find(std::string("burnish ") + verb), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("Example"), std::string::npos) << verb;
+  }
+}
+
+TEST(Program, SimplifyRefusesWhatWouldBindNothing) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "box.ply", make_box()));
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--max_error", "0"},
+        {"--max_error", "noise:c=0"},
+        {"-m", "quadric", "-m", "point_removal", "--max_error", "1mm"}}) {
+    std::vector<std::string> words{"simplify", folder / "box.ply", "-o", folder / "small.ply"};
+    words.insert(words.end(), options.begin(), options.end());
+    EXPECT_EQ(burnish(words).status, 2) << options[1];
+    EXPECT_FALSE(std::filesystem::exists(folder / "small.ply"));
   }
 }
 

@@ -38,7 +38,9 @@ Result<void> refine(const Options& options, const Session& session, const Contex
       !done) {
     return done;
   }
-  if (auto written = save(options.output, *mesh, session, context.part(0.7, 0.8)); !written) {
+  if (auto written =
+          save(options.output, *mesh, session, context.part(0.7, 0.8), comments_of(record));
+      !written) {
     return written;
   }
   say_steps(session, record);

@@ -43,6 +43,21 @@ Result<std::vector<Method>> methods_of(const Options& options, const char* usual
   if (!options.methods.empty()) methods = parse_methods(options.methods);
   if (!methods) return methods;
   const Settings own = settings_of(options);
+  if (methods->size() > 1 && !own.empty()) {
+    return Error{ErrorCode::invalid_argument,
+                 "with several methods each has a target and a bound of its own: --method "
+                 "quadric:ratio=0.5 in place of --" +
+                     own.front().first,
+                 "--method"};
+  }
+  for (const auto& [key, value] : own) {
+    const auto number =
+        parse_quantity(value, key == "max_error" ? Quantity::length : Quantity::number);
+    if (number && *number <= 0) {
+      return Error{ErrorCode::invalid_argument,
+                   fmt::format("'{}' was given, more than 0 was expected", value), "--" + key};
+    }
+  }
   for (Method& method : *methods) {
     method.settings.insert(method.settings.end(), own.begin(), own.end());
   }

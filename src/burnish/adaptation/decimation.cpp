@@ -1,5 +1,7 @@
 #include "burnish/adaptation/decimation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -22,9 +24,9 @@ constexpr float kAnyCost = std::numeric_limits<float>::max();
 /// planes leave a place open.
 constexpr double kCornerWeight = 1e-6;
 /// The weight of a plane across the surface along a boundary, of the square of the edge's length.
-constexpr double kBoundaryWeight = 20;
+constexpr double kBoundaryWeight = 10;
 /// The share of the planes around a vertex, beside those that it remembers.
-constexpr double kPresent = 0.8;
+constexpr double kPresent = 0.9;
 /// The cosine of how far a triangle may turn.
 constexpr double kLeastCosine = 0.2;
 /// The share of the vertices that go in a round: fewer come closer to the order of their costs,
@@ -32,6 +34,17 @@ constexpr double kLeastCosine = 0.2;
 constexpr double kRound = 0.5;
 
 }  // namespace
+
+Result<void> check_decimated(const TriangleMesh& mesh) {
+  constexpr std::size_t kMostTriangles = (HalfEdges::kNone - 2) / 3;
+  if (mesh.triangles.size() > kMostTriangles) {
+    return Error{ErrorCode::unsupported,
+                 fmt::format("{} triangles are more than the {} whose half-edges can be numbered",
+                             mesh.triangles.size(), kMostTriangles),
+                 {}};
+  }
+  return check(mesh);
+}
 
 Decimation::Decimation(const TriangleMesh& mesh, Placement placement,
                        std::optional<DeviationBound> bound, const Context& context)
@@ -45,7 +58,7 @@ Decimation::Decimation(const TriangleMesh& mesh, Placement placement,
       state_(mesh.positions.size(), 0),
       numbers_(mesh.triangles.size()) {
   std::iota(numbers_.begin(), numbers_.end(), 0u);
-  if (!mesh.positions.empty()) add_triangle_quadrics(mesh);
+  if (!mesh.positions.empty() && !context.cancelled()) add_triangle_quadrics(mesh);
 }
 
 void Decimation::add_triangle_quadrics(const TriangleMesh& mesh) {
@@ -104,8 +117,8 @@ Decimation::End Decimation::end_that_goes(Index h) const {
 float Decimation::cost_of(Index h) const {
   if (!places_freely(h)) return static_cast<float>(end_that_goes(h).cost);
   const Quadric q = quadrics_[half_edges_.origin(h)] + quadrics_[half_edges_.head(h)];
-  const auto cost = static_cast<float>(std::max(0., q(q.least())));
-  return std::isfinite(cost) ? cost : kNever;
+  const double cost = q(q.least());
+  return std::isfinite(cost) ? static_cast<float>(std::max(0., cost)) : kNever;
 }
 
 /// Of all edges.
@@ -150,9 +163,9 @@ bool Decimation::renew_costs(std::span<const Index> edges, const Context& contex
   });
 }
 
-/// The edges that cost no more than `limit`, in order. What an edge
-/// cost before one of its ends was merged is less than what it costs now: such costs are found anew
-/// only once they are among the cheapest.
+/// The edges that cost no more than `limit`, in order. What an edge cost before one of its ends was
+/// merged is hardly ever more than what it costs now: such costs are found anew only once they are
+/// among the cheapest.
 Result<std::vector<Decimation::Choice>> Decimation::cheapest(float limit, const Context& context) {
   LargeVector<Index> edges(costs_.size());
   std::size_t found = 0;
@@ -213,7 +226,7 @@ Quadric Decimation::quadric_of(Index h, Vec3d& area, double& volume) const {
 /// as they are now, of all places that leave the volume under the surface what it is (Lindstrom and
 /// Turk 1998, section 4). Planes of triangles that are gone would draw it outwards of what is
 /// round.
-Vec3f Decimation::place_keeping_volume(Index h) const {
+Decimation::Place Decimation::place_keeping_volume(Index h) const {
   const Index a = half_edges_.origin(h), b = half_edges_.head(h);
   Vec3d area{};
   double volume = 0;
@@ -224,7 +237,7 @@ Vec3f Decimation::place_keeping_volume(Index h) const {
     around += quadric_of(from, area, volume);
   });
   const Vec3d at = around.least_on(area, volume);
-  return static_cast<Vec3f>(at + centre_);
+  return {static_cast<Vec3f>(at + centre_), static_cast<float>(around(at))};
 }
 
 /// What the two ends of a collapsed edge stood for, and what is around the vertex that they became:
@@ -239,16 +252,22 @@ Quadric Decimation::quadric_after(Index stays, const Quadric& remembered) const 
   return around * kPresent + remembered * (1 - kPresent);
 }
 
-/// Where a bound is kept, an end is a second choice: surfaces move less then.
-bool Decimation::try_collapse(Index h) {
-  if (!half_edges_.keeps_surface(h)) return false;
+/// An edge whose place costs more than `limit` waits with that as its cost. Where a bound is kept
+/// an end is a second choice: the surface moves less then.
+Decimation::Try Decimation::try_collapse(Index h, float limit) {
+  if (!half_edges_.keeps_surface(h)) return Try::hindered;
   if (places_freely(h)) {
-    if (make_if_allowed({h, false, place_keeping_volume(h)})) return true;
-    if (!bound_) return false;
+    const Place place = place_keeping_volume(h);
+    if (place.cost > limit) {
+      costs_[h] = place.cost;
+      return Try::dearer;
+    }
+    if (make_if_allowed({h, false, place.position})) return Try::made;
+    if (!bound_) return Try::hindered;
   }
   const bool head_goes = end_that_goes(h).head_goes;
   const Index stays = head_goes ? half_edges_.origin(h) : half_edges_.head(h);
-  return make_if_allowed({h, head_goes, positions_[stays]});
+  return make_if_allowed({h, head_goes, positions_[stays]}) ? Try::made : Try::hindered;
 }
 
 bool Decimation::make_if_allowed(const Collapse& collapse) {
@@ -265,7 +284,10 @@ void Decimation::make(const Collapse& collapse) {
   const double length = squared_norm(along);
   const double share =
       length > 0 ? dot(static_cast<Vec3d>(collapse.position) - place(stays), along) / length : 0;
-  shares_.push_back(static_cast<float>(std::clamp(share, 0., 1.)));
+  // 0 says that nothing has moved; a place beside the edge may be beside its very end.
+  const bool moved = collapse.position != positions_[stays];
+  const float least = moved ? std::numeric_limits<float>::min() : 0.f;
+  shares_.push_back(std::clamp(static_cast<float>(share), least, 1.f));
   removals_.push_back({goes, stays, bound_ ? static_cast<float>(bound_->largest()) : 0.f});
 
   join_costs(collapse.half_edge);
@@ -319,13 +341,15 @@ std::vector<Triangle> Decimation::triangles_left() const {
 }
 
 /// Collapses the edges that were chosen, but for those whose costs an earlier one has changed.
-void Decimation::collapse_all(const std::vector<Choice>& chosen, std::size_t target) {
-  for (const Choice& choice : chosen) {
-    const Index h = choice.edge;
+void Decimation::collapse_all(const std::vector<Choice>& chosen, float limit, std::size_t target,
+                              const Context& context) {
+  constexpr std::size_t kBetweenLooks = 1024;
+  for (std::size_t i = 0; i < chosen.size() && triangles() > target; ++i) {
+    if (i % kBetweenLooks == 0 && context.cancelled()) return;
+    const Index h = chosen[i].edge;
     if (!half_edges_.is_live(h / 3)) continue;
     if ((state_[half_edges_.origin(h)] | state_[half_edges_.head(h)]) & kMerged) continue;
-    if (!try_collapse(h)) costs_[h] = kHindered;
-    if (triangles() <= target) break;
+    if (try_collapse(h, limit) == Try::hindered) costs_[h] = kHindered;
   }
 }
 
@@ -341,7 +365,7 @@ Result<void> Decimation::run(std::size_t target, const Context& context) {
     if (!chosen) return chosen.error();
     if (chosen->empty() && limit == kAnyCost) break;
     std::fill(state_.begin(), state_.end(), 0);
-    collapse_all(*chosen, target);
+    collapse_all(*chosen, limit, target, context);
     if (triangles() < half_edges_.triangles() / 2) compact();
     context.progress(static_cast<double>(before - triangles()) /
                      static_cast<double>(before - target));

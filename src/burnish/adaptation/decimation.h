@@ -16,6 +16,10 @@
 
 namespace burnish {
 
+/// Whether `mesh` is sound and its half-edges can be numbered with 32 bits. Errors: bad_geometry,
+/// unsupported.
+Result<void> check_decimated(const TriangleMesh& mesh);
+
 /// Edge collapses in rounds: costs of all edges in parallel, then the cheapest, one after the
 /// other.
 class Decimation {
@@ -24,7 +28,10 @@ class Decimation {
   Decimation(const TriangleMesh& mesh, Placement placement, std::optional<DeviationBound> bound,
              const Context& context);
 
-  /// Collapses edges, cheapest first, until at most `target` triangles are left or none can go.
+  /// Collapses edges, cheapest first, until at most `target` triangles are left (a triangle less
+  /// where the last collapse takes two) or none can go. What is cheapest comes from a sample: where
+  /// many costs are the same a round may take all of them. Errors: cancelled. O(#T log #T) where no
+  /// vertex has many triangles; a collapse takes as long as its ends have triangles.
   Result<void> run(std::size_t target, const Context& context);
 
   std::size_t triangles() const { return half_edges_.live_triangles(); }
@@ -69,12 +76,19 @@ class Decimation {
   Result<std::vector<Choice>> cheapest(float limit, const Context& context);
   void join_costs(Index collapsing);
   Quadric quadric_of(Index h, Vec3d& area, double& volume) const;
-  Vec3f place_keeping_volume(Index h) const;
+  struct Place {
+    Vec3f position;
+    float cost;
+  };
+  Place place_keeping_volume(Index h) const;
   Quadric quadric_after(Index stays, const Quadric& remembered) const;
   bool folds(const Collapse& collapse) const;
   bool folds_around(Index v, Index other, const Vec3d& moved_to) const;
-  void collapse_all(const std::vector<Choice>& chosen, std::size_t target);
-  bool try_collapse(Index h);
+  void collapse_all(const std::vector<Choice>& chosen, float limit, std::size_t target,
+                    const Context& context);
+  /// What became of an edge that was to collapse.
+  enum class Try { made, hindered, dearer };
+  Try try_collapse(Index h, float limit);
   bool make_if_allowed(const Collapse& collapse);
   void make(const Collapse& collapse);
   void compact();

@@ -19,11 +19,13 @@ struct Collapse {
 /// those that it leaves, with what it moves the surface there added.
 class DeviationBound {
  public:
-  /// `limits`: per triangle what its bound must not exceed, m.
+  /// `limits`: per triangle of the mesh what its bound must not exceed, m. Where triangles become
+  /// others these get the least limit among them.
   explicit DeviationBound(std::vector<float> limits)
       : errors_(limits.size(), 0.f), limits_(std::move(limits)) {}
 
-  /// Whether the bounds keep to their limits if `collapse` is made; then they are as after it. A
+  /// Whether the bounds keep to their limits if `collapse`, which must be possible, is made; if so
+  /// they are henceforth those after it. O(valence^2). A
   /// vertex on the boundary may only go along it, and
   /// one that others are merged into at a boundary must stay in its place.
   bool accept(const HalfEdges& half_edges, const LargeVector<Vec3f>& positions,

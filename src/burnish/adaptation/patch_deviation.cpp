@@ -10,9 +10,10 @@ namespace {
 
 /// What a triangle must at least keep of its area along the direction of sight.
 constexpr double kLeastCosine = 1e-3;
-/// How far beyond the end of an edge a crossing counts, as a share of its length: what is counted
-/// once too often can only make the bound larger.
-constexpr double kReach = 1e-9;
+/// How far beyond the end of an edge a crossing counts, as a share of its length, and how much
+/// farther where two edges are nearly parallel, so that rounding moves it: what is counted once too
+/// often can only make the bound larger.
+constexpr double kReach = 1e-9, kRounding = 1e-14;
 
 bool has(const PatchDeviation::Corners& corners, std::uint32_t point) {
   return corners[0] == point || corners[1] == point || corners[2] == point;
@@ -38,6 +39,22 @@ bool PatchDeviation::project() {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3d p = points[i] - points[0];
     flat_[i] = {dot(p, frame.u), dot(p, frame.v), dot(p, up)};
+  }
+  return goes_round_once(before) && goes_round_once(after);
+}
+
+/// Triangles that are all seen from one side may still go around a point more than once.
+bool PatchDeviation::goes_round_once(const Patch& patch) const {
+  for (const std::uint32_t p : patch.inner) {
+    int rounds = 0;
+    for (const Corners& c : patch.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (c[i] != p) continue;
+        const double y = flat_[p].y;
+        rounds += flat_[c[(i + 1) % 3]].y < y && flat_[c[(i + 2) % 3]].y >= y;
+      }
+    }
+    if (rounds > 1) return false;
   }
   return true;
 }
@@ -85,7 +102,9 @@ void PatchDeviation::meet_at_crossings() {
       if (denominator == 0) continue;
       const double wx = c.x - a.x, wy = c.y - a.y;
       const double s = (wx * vy - wy * vx) / denominator, t = (wx * uy - wy * ux) / denominator;
-      if (s < -kReach || s > 1 + kReach || t < -kReach || t > 1 + kReach) continue;
+      const double lengths = std::sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy));
+      const double reach = kReach + kRounding * lengths / std::abs(denominator);
+      if (s < -reach || s > 1 + reach || t < -reach || t > 1 + reach) continue;
       const double distance =
           std::abs(a.height + s * (b.height - a.height) - (c.height + t * (d.height - c.height)));
       for (const std::uint32_t j : f.triangles) {

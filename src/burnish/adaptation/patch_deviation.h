@@ -12,7 +12,8 @@ namespace burnish {
 /// How far two triangulations of one small patch of surface are apart, as a bound that holds both
 /// ways (Bajaj and Schikore 1998). Along one direction both cover the same part of a plane once;
 /// laid over each other there, the distance between them is linear in every piece, and therefore
-/// largest at a vertex of one inside the other or where two edges cross.
+/// largest at a vertex of one inside the other or where two edges cross. Computed in double: it
+/// holds up to the rounding of that.
 class PatchDeviation {
  public:
   using Corners = std::array<std::uint32_t, 3>;
@@ -45,6 +46,7 @@ class PatchDeviation {
 
   bool lay_over();
   bool project();
+  bool goes_round_once(const Patch& patch) const;
   void find_inner_edges(const Patch& patch, std::vector<InnerEdge>& edges) const;
   void meet(std::uint32_t triangle_after, std::uint32_t triangle_before, double distance);
   void meet_along_outline();

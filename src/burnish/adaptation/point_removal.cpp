@@ -1,6 +1,7 @@
 #include "burnish/adaptation/point_removal.h"
 
 #include <limits>
+#include <utility>
 
 #include "burnish/adaptation/decimation.h"
 
@@ -13,9 +14,9 @@ Result<SimplifyReport> simplify_point_removal(TriangleMesh& mesh, const Simplify
 
 Result<std::vector<Removal>> removal_log(const TriangleMesh& mesh, std::size_t target,
                                          const Context& context) {
-  if (auto sound = check(mesh); !sound) return sound.error();
-  const std::vector<float> limits(mesh.triangles.size(), std::numeric_limits<float>::infinity());
-  Decimation decimation(mesh, Placement::endpoint, DeviationBound(limits), context);
+  if (auto sound = check_decimated(mesh); !sound) return sound.error();
+  std::vector<float> limits(mesh.triangles.size(), std::numeric_limits<float>::infinity());
+  Decimation decimation(mesh, Placement::endpoint, DeviationBound(std::move(limits)), context);
   if (auto done = decimation.run(target, context); !done) return done.error();
   return decimation.take_removals();
 }

@@ -4,8 +4,9 @@
 
 namespace burnish {
 
-/// Collapses edges, each to the point that is nearest to the planes of all triangles that it stands
-/// for, cheapest first (quadric error metric: Garland and Heckbert 1997). Vertices on boundaries
+/// Collapses edges, cheapest by the quadric error metric first (Garland and Heckbert 1997), each to
+/// the point that is nearest to the planes of the triangles around it and keeps the volume under
+/// the surface (Lindstrom and Turk 1998, section 4). Vertices on boundaries
 /// stay in their places or go. What is known of vertices is merged with them. O(#T log #T), below
 /// 300 bytes a triangle.
 /// Errors: invalid_argument, bad_geometry, cancelled; `mesh` is then unchanged.

@@ -6,7 +6,8 @@ namespace burnish {
 
 /// A half-edge collapse: the vertex `vertex` goes, and every triangle that had a corner at it has
 /// that corner at its neighbour `into` instead; the one or two triangles along the edge between
-/// them, which would name `into` twice, go too. No vertex moves. Undone, it is a vertex split.
+/// them, which would name `into` twice, go too. In a log no vertex moves. Undone, it is a vertex
+/// split.
 struct Removal {
   std::uint32_t vertex = 0;
   std::uint32_t into = 0;

@@ -1,5 +1,7 @@
 #include "burnish/adaptation/simplification.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,18 +28,31 @@ Result<std::vector<float>> limits_of(const SimplifyParams& params, const Triangl
   std::vector<float> limits;
   if (params.max_error == 0 && params.max_sigmas == 0) return limits;
   const std::vector<float>& sigma = mesh.attributes.sigma;
+  // A limit that is rounded up would let through more than was asked for.
+  const auto rounded_down = [](double limit) {
+    const auto nearest = static_cast<float>(limit);
+    return nearest > limit ? std::nextafter(nearest, 0.f) : nearest;
+  };
   if (params.max_sigmas > 0 && sigma.empty()) {
     return Error{ErrorCode::bad_geometry,
                  "the error is to be bounded by the vertices' own sigma, and they have none",
                  "sigma"};
   }
+  for (std::size_t v = 0; params.max_sigmas > 0 && v < sigma.size(); ++v) {
+    if (!std::isfinite(sigma[v]) || sigma[v] < 0) {
+      return Error{
+          ErrorCode::bad_geometry,
+          fmt::format("a sigma of {} m is none; a finite one, not below 0, was expected", sigma[v]),
+          fmt::format("vertex {}", v)};
+    }
+  }
   constexpr float kNoLimit = std::numeric_limits<float>::infinity();
   limits.assign(mesh.triangles.size(),
-                params.max_error > 0 ? static_cast<float>(params.max_error) : kNoLimit);
+                params.max_error > 0 ? rounded_down(params.max_error) : kNoLimit);
   for (std::size_t t = 0; params.max_sigmas > 0 && t < limits.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const double least = std::min({sigma[a], sigma[b], sigma[c]});
-    limits[t] = std::min(limits[t], static_cast<float>(params.max_sigmas * least));
+    limits[t] = std::min(limits[t], rounded_down(params.max_sigmas * least));
   }
   return limits;
 }
@@ -102,13 +117,14 @@ Facts SimplifyReport::facts() const {
 Result<SimplifyReport> simplify(TriangleMesh& mesh, Placement placement,
                                 const SimplifyParams& params, const Context& context) {
   if (auto valid = SimplifyParams::schema().check(params); !valid) return valid.error();
-  if (auto sound = check(mesh); !sound) return sound.error();
+  if (auto sound = check_decimated(mesh); !sound) return sound.error();
   Result<std::vector<float>> limits = limits_of(params, mesh);
   if (!limits) return std::move(limits).error();
   std::optional<DeviationBound> bound;
   if (!limits->empty()) bound.emplace(*std::move(limits));
 
   const std::size_t target = target_of(params, mesh.triangles.size());
+  const bool aimed = target > 0 || params.ratio > 0;
   Decimation decimation(mesh, placement, std::move(bound), context);
   if (auto done = decimation.run(target, context.part(0, 0.9)); !done) return done.error();
   TriangleMesh result = decimated(mesh, decimation);
@@ -118,7 +134,7 @@ Result<SimplifyReport> simplify(TriangleMesh& mesh, Placement placement,
   report.triangles_before = mesh.triangles.size();
   report.triangles = result.triangles.size();
   report.removed_vertices = mesh.positions.size() - result.positions.size();
-  report.target_reached = target == 0 || result.triangles.size() <= target;
+  report.target_reached = !aimed || result.triangles.size() <= target;
   report.error_bound = decimation.largest_error();
   std::swap(mesh, result);
   context.progress(1);

@@ -38,7 +38,7 @@ struct SimplifyReport {
 /// Where the vertex lies that the two ends of a collapsed edge become.
 enum class Placement {
   endpoint,  ///< at the better of the two: vertices are removed, none is moved
-  optimal,   ///< where the sum of the squared distances from the planes merged in it is least
+  optimal,   ///< nearest to the planes around them, with the volume under the surface kept
 };
 
 /// Simplifies by collapses of this kind. Errors: invalid_argument; bad_geometry, also where sigma
