@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -144,6 +145,22 @@ TEST(Architecture, HeadersKeepThirdPartiesToThemselves) {
 TEST(Architecture, HeadersAreGuarded) {
   for (const fs::path& file : files(kModules, {".h"})) {
     EXPECT_EQ(lines(file).front(), "#pragma once") << file;
+  }
+}
+
+/// So that a header that leans on what others include does not compile.
+TEST(Architecture, SourcesIncludeTheirOwnHeaderFirst) {
+  for (const fs::path& source : files(kModules, {".cpp"})) {
+    fs::path header = source;
+    header.replace_extension(".h");
+    if (!fs::exists(header)) continue;
+    const std::vector<std::string> text = lines(source);
+    const auto first = std::find_if(text.begin(), text.end(), [](const std::string& line) {
+      return line.rfind("#include", 0) == 0;
+    });
+    ASSERT_NE(first, text.end()) << source;
+    EXPECT_EQ(*first, "#include \"" + fs::relative(header, kRoot / "src").string() + "\"")
+        << source;
   }
 }
 
