@@ -216,5 +216,19 @@ TEST(RemovalLog, ErrorsNeverFallAndHoldAtEveryLength) {
   }
 }
 
+TEST(RemovalLog, GoesNearlyAsFarAsABoundLets) {
+  const TriangleMesh model = test::with_noise(make_sphere(1, 4), 0.005, 9);
+  const auto log = removal_log(model);
+  ASSERT_TRUE(log);
+  for (const float bound : {0.01f, 0.03f}) {
+    TriangleMesh mesh = model;
+    const auto report = simplify_point_removal(mesh, {.max_error = bound});
+    ASSERT_TRUE(report);
+    const auto within = std::count_if(log->begin(), log->end(),
+                                      [bound](const Removal& r) { return r.error <= bound; });
+    EXPECT_GE(static_cast<double>(within), 0.8 * static_cast<double>(report->removed_vertices));
+  }
+}
+
 }  // namespace
 }  // namespace burnish

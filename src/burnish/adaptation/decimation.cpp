@@ -70,6 +70,7 @@ void Decimation::add_triangle_quadrics(const TriangleMesh& mesh) {
     }
   }
   centre_ = (low + high) * .5;
+  diagonal_ = norm(high - low);
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const Vec3d corners[] = {place(a) - centre_, place(b) - centre_, place(c) - centre_};
@@ -252,10 +253,19 @@ Quadric Decimation::quadric_after(Index stays, const Quadric& remembered) const 
   return around * kPresent + remembered * (1 - kPresent);
 }
 
+/// Whether the planes around are farther from where they would meet, in the mean, than the bound
+/// may become for now: there is no need to look closer then.
+bool Decimation::is_beyond_step(Index h) const {
+  if (step_ == std::numeric_limits<double>::infinity()) return false;
+  const Quadric q = quadrics_[half_edges_.origin(h)] + quadrics_[half_edges_.head(h)];
+  const double weight = q.xx + q.yy + q.zz;
+  return costs_[h] > weight * step_ * step_;
+}
+
 /// An edge whose place costs more than `limit` waits with that as its cost. Where a bound is kept
 /// an end is a second choice: the surface moves less then.
 Decimation::Try Decimation::try_collapse(Index h, float limit) {
-  if (!half_edges_.keeps_surface(h)) return Try::hindered;
+  if (is_beyond_step(h) || !half_edges_.keeps_surface(h)) return Try::hindered;
   if (places_freely(h)) {
     const Place place = place_keeping_volume(h);
     if (place.cost > limit) {
@@ -372,6 +382,23 @@ Result<void> Decimation::run(std::size_t target, const Context& context) {
     if (context.cancelled()) return cancelled();
   }
   compact();
+  return {};
+}
+
+Result<void> Decimation::run_by_error(std::size_t target, const Context& context) {
+  constexpr double kFirst = 1e-6, kGrowth = 1.5;  // of the diagonal
+  const std::size_t before = triangles();
+  Context quiet = context;
+  quiet.sink = nullptr;
+  for (double step = kFirst; triangles() > target; step *= kGrowth) {
+    const bool last = step > 1;
+    step_ = last ? std::numeric_limits<double>::infinity() : step * diagonal_;
+    bound_->set_limits(static_cast<float>(step_));
+    if (auto done = run(target, quiet); !done) return done;
+    context.progress(static_cast<double>(before - triangles()) /
+                     static_cast<double>(before - target));
+    if (last) break;
+  }
   return {};
 }
 

@@ -34,6 +34,10 @@ class Decimation {
   /// vertex has many triangles; a collapse takes as long as its ends have triangles.
   Result<void> run(std::size_t target, const Context& context);
 
+  /// The same with the bound that there is, raised step by step from next to nothing: what can go
+  /// without harm goes before what cannot, so that the errors of the removals rise slowly.
+  Result<void> run_by_error(std::size_t target, const Context& context);
+
   std::size_t triangles() const { return half_edges_.live_triangles(); }
   /// In the order in which they were made. The error is that of the bound, 0 where there is none.
   const std::vector<Removal>& removals() const { return removals_; }
@@ -89,6 +93,7 @@ class Decimation {
   /// What became of an edge that was to collapse.
   enum class Try { made, hindered, dearer };
   Try try_collapse(Index h, float limit);
+  bool is_beyond_step(Index h) const;
   bool make_if_allowed(const Collapse& collapse);
   void make(const Collapse& collapse);
   void compact();
@@ -97,9 +102,11 @@ class Decimation {
   HalfEdges half_edges_;
   Placement placement_;
   std::optional<DeviationBound> bound_;
-  Vec3d centre_;                     ///< what quadrics are measured from, so that little cancels
-  LargeVector<Vec3f> positions_;     ///< per vertex
-  LargeVector<Quadric> quadrics_;    ///< per vertex
+  Vec3d centre_;         ///< what quadrics are measured from, so that little cancels
+  double diagonal_ = 0;  ///< of the box around the mesh, m
+  double step_ = std::numeric_limits<double>::infinity();  ///< what the bound is raised to, m
+  LargeVector<Vec3f> positions_;                           ///< per vertex
+  LargeVector<Quadric> quadrics_;                          ///< per vertex
   LargeVector<float> costs_;         ///< per half-edge; of an edge at the smaller of its two
   LargeVector<std::uint8_t> stale_;  ///< per half-edge whether its cost is that of before a merge
   std::vector<std::uint8_t> state_;  ///< per vertex what became of it in this round

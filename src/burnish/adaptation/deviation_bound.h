@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "burnish/adaptation/half_edges.h"
@@ -30,6 +31,9 @@ class DeviationBound {
   /// one that others are merged into at a boundary must stay in its place.
   bool accept(const HalfEdges& half_edges, const LargeVector<Vec3f>& positions,
               const Collapse& collapse);
+
+  /// From now on `limit` (m) is that of every triangle.
+  void set_limits(float limit) { std::fill(limits_.begin(), limits_.end(), limit); }
 
   /// The largest bound so far, m.
   double largest() const { return largest_; }

@@ -17,7 +17,7 @@ Result<std::vector<Removal>> removal_log(const TriangleMesh& mesh, std::size_t t
   if (auto sound = check_decimated(mesh); !sound) return sound.error();
   std::vector<float> limits(mesh.triangles.size(), std::numeric_limits<float>::infinity());
   Decimation decimation(mesh, Placement::endpoint, DeviationBound(std::move(limits)), context);
-  if (auto done = decimation.run(target, context); !done) return done.error();
+  if (auto done = decimation.run_by_error(target, context); !done) return done.error();
   return decimation.take_removals();
 }
 
