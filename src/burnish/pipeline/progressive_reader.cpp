@@ -127,7 +127,7 @@ Result<void> ProgressiveReader::read_end() {
         fmt::format("{} triangles were claimed, {} came", original_.triangles, triangles()));
   }
   if (cursor_.at_end()) {
-    notes_.push_back("the file ends before its last check");
+    notes_.emplace_back("the file ends before its last check");
     return {};
   }
   const std::size_t begin = cursor_.offset();
@@ -180,7 +180,7 @@ Result<void> ProgressiveReader::read(bool log) {
 Result<ProgressiveContent> ProgressiveReader::content() && {
   const bool whole = records_read_ == records();
   if (!whole && grown().columns.triangle_owner())
-    notes_.push_back("the owners of triangles come with the original only: left out");
+    notes_.emplace_back("the owners of triangles come with the original only: left out");
   auto ordered = in_original_order(std::move(head_.coarse), whole);
   if (!ordered) {
     ordered.error().where = name_;
