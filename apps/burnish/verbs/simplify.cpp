@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "../report_output.h"
+#include "../edit_file.h"
 #include "../summary.h"
 #include "../verb.h"
 #include "burnish/io/geometry_file.h"
@@ -87,22 +87,13 @@ Result<void> thin_points(PointCloud cloud, const Options& options, Record& recor
 }
 
 Result<void> simplify(const Options& options, const Session& session, const Context& context) {
-  if (auto possible = check_output(options.output); !possible) return possible;
-  if (auto possible = check_report_output(options.report); !possible) return possible;
-  context.stage("reading " + options.input);
-  Result<GeometryFile> file = read_geometry(options.input, context.part(0, 0.2));
-  if (!file) return std::move(file).error();
-
-  Record record =
-      new_record("Simplification of " + options.input, session.command, {options.input});
-  keep_notes(options.input, *file, record);
-  const Context share = context.part(0.2, 0.8);
-  const auto done = file->mesh.triangles.empty()
-                        ? thin_points(cloud_of(*std::move(file)), options, record, session, share)
-                        : simplify_mesh(std::move(file->mesh), options, record, session, share);
-  if (!done) return done;
-  say_steps(session, record);
-  return write_report_output(options.report, record, session, context.part(0.8, 1));
+  const auto run = [&](GeometryFile file, Record& record, const Context& share) {
+    return file.mesh.triangles.empty()
+               ? thin_points(cloud_of(std::move(file)), options, record, session, share)
+               : simplify_mesh(std::move(file.mesh), options, record, session, share);
+  };
+  return edit_file({"Simplification of", options.input, options.output, options.report}, run,
+                   session, context);
 }
 
 }  // namespace

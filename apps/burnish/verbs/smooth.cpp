@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include "../report_output.h"
-#include "../summary.h"
+#include "../edit_file.h"
 #include "../verb.h"
 #include "burnish/io/geometry_file.h"
 #include "burnish/pipeline/phases.h"
@@ -26,30 +25,12 @@ Result<void> smooth(const Options& options, const Session& session, const Contex
   const auto bound = bound_of(options.bound);
   if (!bound) return bound.error();
 
-  if (auto possible = check_output(options.output); !possible) return possible;
-  if (auto possible = check_report_output(options.report); !possible) return possible;
-  context.stage("reading " + options.input);
-  Result<GeometryFile> file = read_geometry(options.input, context.part(0, 0.2));
-  if (!file) return std::move(file).error();
-
-  Record record = new_record("Smoothing of " + options.input, session.command, {options.input});
-  keep_notes(options.input, *file, record);
-  Result<TriangleMesh> mesh = mesh_of(*std::move(file), options.input);
-  if (!mesh) return std::move(mesh).error();
   const bool keep_phases = options.report.wanted();
-  if (auto done = smooth_in_phases(*mesh, *methods, {*region, *bound}, keep_phases, record,
-                                   context.part(0.2, 0.7));
-      !done) {
-    return done;
-  }
-  if (auto written =
-          save(options.output, *mesh, session, context.part(0.7, 0.8), comments_of(record));
-      !written) {
-    return written;
-  }
-  say_steps(session, record);
-  say_certificate(session, record);
-  return write_report_output(options.report, record, session, context.part(0.8, 1));
+  const auto run = [&](TriangleMesh& mesh, Record& record, const Context& share) {
+    return smooth_in_phases(mesh, *methods, {*region, *bound}, keep_phases, record, share);
+  };
+  return edit_mesh({"Smoothing of", options.input, options.output, options.report}, run, session,
+                   context);
 }
 
 }  // namespace

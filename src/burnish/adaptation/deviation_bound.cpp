@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "burnish/spatial/closest_point.h"
+
 namespace burnish {
 namespace {
 
@@ -11,12 +13,6 @@ float rounded_up(double value) {
   const auto nearest = static_cast<float>(value);
   return nearest < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
                          : nearest;
-}
-
-Vec3d closest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-  const Vec3d along = b - a;
-  const double length = squared_norm(along);
-  return length > 0 ? a + along * std::clamp(dot(p - a, along) / length, 0., 1.) : a;
 }
 
 /// The other neighbour along the boundary of `v`, which lies on one that leads to `one`.

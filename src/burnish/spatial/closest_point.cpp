@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
 
+}  // namespace
+
 Vec3d closest_on_segment(const Vec3d& query, const Vec3d& a, const Vec3d& b) {
   const Vec3d along = b - a;
   const double length = squared_norm(along);
@@ -16,8 +18,6 @@ Vec3d closest_on_segment(const Vec3d& query, const Vec3d& a, const Vec3d& b) {
   const double t = dot(query - a, along) / length;
   return t <= 0 ? a : t >= 1 ? b : a + t * along;
 }
-
-}  // namespace
 
 Vec3d closest_on_triangle(const Vec3d& query, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const Vec3d normal = cross(b - a, c - a);

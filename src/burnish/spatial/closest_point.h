@@ -47,6 +47,9 @@ class ClosestPoint {
   std::vector<Corners> corners_;  ///< leaf by leaf
 };
 
+/// The point of the segment from a to b closest to `query`.
+Vec3d closest_on_segment(const Vec3d& query, const Vec3d& a, const Vec3d& b);
+
 /// The point of triangle a, b, c closest to `query`, whatever the triangle's shape.
 Vec3d closest_on_triangle(const Vec3d& query, const Vec3d& a, const Vec3d& b, const Vec3d& c);
 
