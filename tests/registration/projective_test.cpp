@@ -1,0 +1,58 @@
+#include "burnish/registration/projective.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/registration_pairs.h"
+#include "support/threads.h"
+
+namespace burnish {
+namespace {
+
+struct Outcome {
+  test::FramePair pair;
+  PairRegistration found;
+
+  /// How far the middle of what matched is from where it should be, m.
+  double error() const {
+    const Vec3d p = found.T_target_source.inverse()(found.centre);
+    return norm(found.T_target_source(p) - pair.T_target_source(p));
+  }
+};
+
+Outcome outcome_of(test::FramePair pair, const Context& context = {}) {
+  const SurfaceView source = surface_view(pair.source).value();
+  const SurfaceView target = surface_view(pair.target).value();
+  auto found = register_projective(source, target, pair.guess, {}, context);
+  return {std::move(pair), std::move(found).value()};
+}
+
+TEST(Projective, FindsAndAcceptsGoodPairs) {
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    const Outcome outcome = outcome_of(test::good_pair(i));
+    EXPECT_TRUE(outcome.found.accepted())
+        << outcome.pair.kind << " " << i << ": " << outcome.found.reason;
+    EXPECT_LT(outcome.error(), 0.004) << outcome.pair.kind << " " << i;
+  }
+}
+
+TEST(Projective, RefusesBadPairs) {
+  for (std::uint64_t i = 0; i < 7; ++i) {
+    const Outcome outcome = outcome_of(test::bad_pair(i));
+    EXPECT_FALSE(outcome.found.accepted()) << outcome.pair.kind << " " << i;
+    EXPECT_EQ(outcome.found.reason.empty(), outcome.found.accepted());
+  }
+}
+
+TEST(Projective, SameBytesForAnyNumberOfThreads) {
+  const test::FramePair pair = test::good_pair(0);
+  const Outcome one = outcome_of(pair, test::with_threads(1));
+  const Outcome many = outcome_of(pair, test::with_threads(3));
+  EXPECT_EQ(one.found.T_target_source, many.found.T_target_source);
+  EXPECT_EQ(one.found.covariance, many.found.covariance);
+  EXPECT_EQ(one.found.inlier_rmse, many.found.inlier_rmse);
+}
+
+}  // namespace
+}  // namespace burnish
