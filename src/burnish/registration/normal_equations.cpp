@@ -4,17 +4,6 @@
 #include <cmath>
 
 namespace burnish {
-namespace {
-
-/// The rotation by |v| about v (Rodrigues).
-RigidTransform rotation_by(const Vec3d& v) {
-  const double half = norm(v) / 2;
-  const double scale = half > 1e-8 ? std::sin(half) / (2 * half) : 0.5;
-  return rigid_from_quaternion(scale * v.x, scale * v.y, scale * v.z, std::cos(half), {});
-}
-
-}  // namespace
-
 std::optional<GaussNewtonStep> solve(const NormalEquations& equations, double damping) {
   using Matrix = Eigen::Matrix<double, 6, 6>;
   using Vector = Eigen::Matrix<double, 6, 1>;
@@ -36,14 +25,6 @@ std::optional<GaussNewtonStep> solve(const NormalEquations& equations, double da
   if (!x.allFinite()) return {};
   return GaussNewtonStep{{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}},
                          std::sqrt(std::max(0.0, x.dot(matrix * x)) / equations.weight)};
-}
-
-RigidTransform moved(const RigidTransform& T, const Twist& twist) {
-  RigidTransform step = rotation_by(twist.rotation);
-  step.translation = twist.translation;
-  const RigidTransform result = step * T;
-  const auto [qx, qy, qz, qw] = quaternion(result);
-  return rigid_from_quaternion(qx, qy, qz, qw, result.translation);
 }
 
 }  // namespace burnish

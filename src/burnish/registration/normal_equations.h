@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "burnish/registration/pair.h"
+#include "burnish/registration/twist.h"
 
 namespace burnish {
 
@@ -53,8 +54,5 @@ struct GaussNewtonStep {
 /// The matrix has the share `damping` of its mean diagonal added (Levenberg 1944), so that it does
 /// not run where nothing holds it. None where nothing matched.
 std::optional<GaussNewtonStep> solve(const NormalEquations& equations, double damping);
-
-/// T moved by a twist on the target's side.
-RigidTransform moved(const RigidTransform& T, const Twist& twist);
 
 }  // namespace burnish

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "burnish/core/disjoint_sets.h"
 #include "burnish/registration/twist.h"
@@ -69,90 +71,86 @@ std::vector<Column> jacobian(const PoseModel& poses, const PoseConstraint& const
   return columns;
 }
 
-/// One fit to the constraints that count.
-class Fit {
- public:
-  Fit(PoseModel& poses, std::span<const PoseConstraint> constraints, const std::vector<bool>& out)
-      : poses_(poses), size_(static_cast<Eigen::Index>(poses.unknowns())) {
-    for (std::size_t i = 0; i < constraints.size(); ++i) {
-      if (!out[i]) constraints_.push_back(&constraints[i]);
-    }
-  }
-
-  /// Levenberg and Marquardt's method until a step changes next to nothing.
-  Result<bool> run(int& iterations, const Context& context) {
-    constexpr int kMostIterations = 100;
-    constexpr double kSmallChange = 1e-10;
-    if (size_ == 0) return true;
-    double damping = 1e-6, cost = cost_now();
-    for (int i = 0; i < kMostIterations; ++i, ++iterations) {
-      if (context.cancelled()) return cancelled();
-      linearize();
-      bool better = false;
-      for (; damping < 1e9 && !better; damping *= 10) {
-        const Eigen::VectorXd step = solve(damping);
-        if (!step.allFinite()) continue;
-        poses_.move(std::span(step.data(), std::size_t(size_)));
-        const double after = cost_now();
-        if (after <= cost) {
-          better = true;
-          const bool small = cost - after <= kSmallChange * (cost + 1e-12);
-          cost = after;
-          if (small) return true;
-        } else {
-          poses_.take_back();
-        }
-      }
-      damping = std::max(damping / 1000, 1e-9);
-      if (!better) return true;  // no step makes it better: this is the least
-    }
-    return false;
-  }
-
- private:
-  double cost_now() const {
-    double cost = 0;
-    for (const PoseConstraint* constraint : constraints_) cost += squares(poses_, *constraint);
-    return cost;
-  }
-
-  void linearize() {
-    std::vector<Eigen::Triplet<double>> entries;
-    gradient_ = Eigen::VectorXd::Zero(size_);
-    for (const PoseConstraint* constraint : constraints_) {
-      const Square6 information = matrix_of(constraint->information);
-      const Vector6 pull = information * error_of(poses_, *constraint);
-      const std::vector<Column> columns = jacobian(poses_, *constraint);
-      for (const Column& a : columns) {
-        gradient_[a.unknown] += a.change.dot(pull);
-        const Vector6 weighted = information * a.change;
-        for (const Column& b : columns) {
-          if (b.unknown <= a.unknown)
-            entries.emplace_back(int(a.unknown), int(b.unknown), weighted.dot(b.change));
-        }
-      }
-    }
-    // What nothing holds stays where it is: its diagonal is not 0 any more.
-    double largest = 0;
-    for (const auto& entry : entries) largest = std::max(largest, std::abs(entry.value()));
-    for (int i = 0; i < size_; ++i) entries.emplace_back(i, i, 1e-12 * largest + 1e-300);
-    matrix_.resize(size_, size_);
-    matrix_.setFromTriplets(entries.begin(), entries.end());
-  }
-
-  Eigen::VectorXd solve(double damping) const {
-    Eigen::SparseMatrix<double> damped = matrix_;
-    for (int i = 0; i < size_; ++i) damped.coeffRef(i, i) *= 1 + damping;
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factors(damped);
-    return -factors.solve(gradient_);
-  }
-
-  PoseModel& poses_;
-  Eigen::Index size_;
-  std::vector<const PoseConstraint*> constraints_;
-  Eigen::SparseMatrix<double> matrix_;  ///< the lower triangle
-  Eigen::VectorXd gradient_;
+/// The matrix of a Gauss-Newton step (its lower triangle) and the gradient.
+struct SparseEquations {
+  Eigen::SparseMatrix<double> matrix;
+  Eigen::VectorXd gradient;
 };
+
+SparseEquations linearized(const PoseModel& poses,
+                           std::span<const PoseConstraint* const> constraints) {
+  const auto size = static_cast<Eigen::Index>(poses.unknowns());
+  SparseEquations equations{Eigen::SparseMatrix<double>(size, size), Eigen::VectorXd::Zero(size)};
+  std::vector<Eigen::Triplet<double>> entries;
+  double largest = 0;
+  for (const PoseConstraint* constraint : constraints) {
+    const Square6 information = matrix_of(constraint->information);
+    const Vector6 pull = information * error_of(poses, *constraint);
+    const std::vector<Column> columns = jacobian(poses, *constraint);
+    for (const Column& a : columns) {
+      equations.gradient[a.unknown] += a.change.dot(pull);
+      const Vector6 weighted = information * a.change;
+      for (const Column& b : columns) {
+        if (b.unknown > a.unknown) continue;
+        entries.emplace_back(int(a.unknown), int(b.unknown), weighted.dot(b.change));
+        largest = std::max(largest, std::abs(entries.back().value()));
+      }
+    }
+  }
+  // What nothing holds stays where it is: its diagonal is not 0 any more.
+  for (int i = 0; i < size; ++i) entries.emplace_back(i, i, 1e-12 * largest + 1e-300);
+  equations.matrix.setFromTriplets(entries.begin(), entries.end());
+  return equations;
+}
+
+using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+
+std::vector<const PoseConstraint*> those_that_count(std::span<const PoseConstraint> constraints,
+                                                    const std::vector<bool>& left_out) {
+  std::vector<const PoseConstraint*> counting;
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    if (!left_out[i]) counting.push_back(&constraints[i]);
+  }
+  return counting;
+}
+
+double cost_of(const PoseModel& poses, std::span<const PoseConstraint* const> constraints) {
+  double cost = 0;
+  for (const PoseConstraint* constraint : constraints) cost += squares(poses, *constraint);
+  return cost;
+}
+
+/// Levenberg and Marquardt's method until a step changes next to nothing; whether it came to that.
+Result<bool> fit(PoseModel& poses, std::span<const PoseConstraint* const> constraints,
+                 int& iterations, const Context& context) {
+  constexpr int kMostIterations = 100;
+  constexpr double kSmallChange = 1e-10, kMostDamping = 1e9;
+  if (poses.unknowns() == 0) return true;
+  double damping = 1e-6, cost = cost_of(poses, constraints);
+  for (int i = 0; i < kMostIterations; ++i) {
+    if (context.cancelled()) return cancelled();
+    ++iterations;
+    const SparseEquations equations = linearized(poses, constraints);
+    double after = std::numeric_limits<double>::infinity();
+    while (!(after <= cost)) {
+      if (damping > kMostDamping) return true;  // no step makes it better: this is the least
+      Eigen::SparseMatrix<double> damped = equations.matrix;
+      for (Eigen::Index k = 0; k < damped.rows(); ++k) damped.coeffRef(k, k) *= 1 + damping;
+      const Eigen::VectorXd step = -Factors(damped).solve(equations.gradient);
+      if (step.allFinite()) {
+        poses.move(std::span(step.data(), poses.unknowns()));
+        after = cost_of(poses, constraints);
+        if (!(after <= cost)) poses.take_back();
+      }
+      damping *= 10;
+    }
+    const bool small = cost - after <= kSmallChange * (cost + 1e-12);
+    cost = after;
+    if (small) return true;
+    damping = std::max(damping / 1000, 1e-9);
+  }
+  return false;
+}
 
 /// Whether the views of `constraint` are joined by others that count.
 bool joined_without(std::span<const PoseConstraint> constraints, const std::vector<bool>& out,
@@ -212,8 +210,8 @@ Result<PoseFit> fit_poses(PoseModel& poses, std::span<const PoseConstraint> cons
   PoseFit result;
   result.contradicted.assign(constraints.size(), false);
   for (;;) {
-    const Result<bool> done =
-        Fit(poses, constraints, result.contradicted).run(result.iterations, context);
+    const auto counting = those_that_count(constraints, result.contradicted);
+    const Result<bool> done = fit(poses, counting, result.iterations, context);
     if (!done) return done.error();
     result.converged = *done;
     result.deviations.clear();
@@ -229,6 +227,49 @@ Result<PoseFit> fit_poses(PoseModel& poses, std::span<const PoseConstraint> cons
     if (worst == constraints.size()) return result;
     result.contradicted[worst] = true;
   }
+}
+
+Result<std::vector<Matrix6>> pose_covariances(const PoseModel& poses,
+                                              std::span<const PoseConstraint> constraints,
+                                              const std::vector<bool>& contradicted,
+                                              std::size_t reference, const Context& context) {
+  if (auto sound = check(constraints, poses.views()); !sound) return sound.error();
+  if (reference >= poses.views() || contradicted.size() != constraints.size()) {
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("view {} of {} and {} constraints of {} were given", reference,
+                             poses.views(), contradicted.size(), constraints.size()),
+                 {}};
+  }
+  const SparseEquations equations = linearized(poses, those_that_count(constraints, contradicted));
+  const Factors factors(equations.matrix);
+  std::vector<Matrix6> covariances(poses.views());
+  for (std::uint32_t view = 0; view < poses.views(); ++view) {
+    if (context.cancelled()) return cancelled();
+    if (view == reference) continue;
+    // How this view moves as seen from the reference: what the whole world does cancels.
+    Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(equations.matrix.rows(), 6);
+    const PoseConstraint seen{std::uint32_t(reference), view, {}, {}};
+    for (const Column& column : jacobian(poses, seen)) {
+      motion.row(column.unknown) = column.change.transpose();
+    }
+    const Square6 covariance = motion.transpose() * factors.solve(motion);
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < 6; ++j) {
+        covariances[view][i][j] = covariance(Eigen::Index(i), Eigen::Index(j));
+      }
+    }
+  }
+  return covariances;
+}
+
+double deviation_at(const Matrix6& covariance, const Vec3d& x) {
+  Eigen::Matrix<double, 3, 6> change;  // rotation x x + translation
+  change << 0, x.z, -x.y, 1, 0, 0,     //
+      -x.z, 0, x.x, 0, 1, 0,           //
+      x.y, -x.x, 0, 0, 0, 1;
+  const Eigen::Matrix3d spread = change * matrix_of(covariance) * change.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(axes.eigenvalues()[2], 0.));
 }
 
 }  // namespace burnish

@@ -43,4 +43,16 @@ struct PoseFit {
 Result<PoseFit> fit_poses(PoseModel& poses, std::span<const PoseConstraint> constraints,
                           double max_deviation, const Context& context = {});
 
+/// Per view the covariance of the twist by which its pose may be off as seen from the view
+/// `reference`, in that one's axes, as the constraints that are not `contradicted` tell. Of a view
+/// that they do not join to it the numbers are enormous. Errors: as fit_poses.
+Result<std::vector<Matrix6>> pose_covariances(const PoseModel& poses,
+                                              std::span<const PoseConstraint> constraints,
+                                              const std::vector<bool>& contradicted,
+                                              std::size_t reference, const Context& context = {});
+
+/// One standard deviation of where a twist of covariance `covariance` takes the point x, in the
+/// direction in which it is largest, m.
+double deviation_at(const Matrix6& covariance, const Vec3d& x);
+
 }  // namespace burnish

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "burnish/base/random.h"
 #include "burnish/io/atomic_writer.h"
 #include "burnish/io/depth_image.h"
 #include "burnish/io/geometry_file.h"
@@ -91,15 +92,44 @@ Result<double> choose_distance(const Sphere& sphere, const Sensor& sensor, doubl
                {}};
 }
 
-RigidTransform view_pose(const Sphere& sphere, const TurntableParams& params, double distance,
-                         int view) {
-  const double azimuth = 2 * std::numbers::pi * view / params.views;
+/// The camera at azimuth 0.
+RigidTransform first_pose(const Sphere& sphere, const TurntableParams& params, double distance,
+                          int view) {
   const double rise = (std::numbers::pi / 2 - params.elevation) / params.rings;
   const double height = params.elevation + rise * (view % params.rings);
-  const Vec3d outwards{std::cos(height) * std::cos(azimuth), std::cos(height) * std::sin(azimuth),
-                       std::sin(height)};
+  const Vec3d outwards{std::cos(height), 0, std::sin(height)};
   return look_at(sphere.centre + distance * outwards, sphere.centre, {0, 0, 1});
 }
+
+RigidTransform rotation_about(const Vec3d& unit_axis, double angle) {
+  const Vec3d v = unit_axis * std::sin(angle / 2);
+  return rigid_from_quaternion(v.x, v.y, v.z, std::cos(angle / 2), {});
+}
+
+/// A turntable: its axis is the z of its own coordinates.
+struct Table {
+  RigidTransform T_world_table;
+  std::vector<double> angles;  ///< of each view
+
+  Table(const Sphere& sphere, const TurntableParams& params) {
+    Random random(static_cast<std::uint64_t>(params.seed), 0);
+    const double towards = random.uniform(0, 2 * std::numbers::pi);
+    const double tilted_about = random.uniform(0, 2 * std::numbers::pi);
+    T_world_table =
+        rotation_about({std::cos(tilted_about), std::sin(tilted_about), 0}, params.axis_tilt);
+    T_world_table.translation =
+        sphere.centre + params.axis_offset * Vec3d{std::cos(towards), std::sin(towards), 0};
+    for (int view = 0; view < params.views; ++view) {
+      const double off = view == 0 ? 0 : params.step_jitter * random.normal();
+      angles.push_back(2 * std::numbers::pi * view / params.views + off);
+    }
+  }
+
+  RigidTransform seen_at(int view, const RigidTransform& T_world_camera) const {
+    const RigidTransform turn = rotation_about({0, 0, 1}, angles[static_cast<std::size_t>(view)]);
+    return T_world_table * turn * T_world_table.inverse() * T_world_camera;
+  }
+};
 
 Result<void> write_picture(const fs::path& stem, const DepthFrame& frame, bool exact) {
   const Camera& camera = frame.camera;
@@ -168,7 +198,13 @@ const Schema<TurntableParams>& TurntableParams::schema() {
           .real("elevation", &P::elevation, between(-1.5, 1.5),
                 "of the lowest ring of views above the horizontal", Quantity::angle)
           .integer("rings", &P::rings, between(1, 1000), "rings of views between there and the top")
-          .real("noise", &P::noise, at_least(0), "share of the sensor's noise; 0 is exact");
+          .real("noise", &P::noise, at_least(0), "share of the sensor's noise; 0 is exact")
+          .real("axis_offset", &P::axis_offset, at_least(0),
+                "of the table's axis from the middle of the model", Quantity::length)
+          .real("axis_tilt", &P::axis_tilt, between(0, 0.5), "of the axis from the vertical",
+                Quantity::angle)
+          .real("step_jitter", &P::step_jitter, between(0, 0.5),
+                "one standard deviation of the table's angle at every view", Quantity::angle);
   return schema;
 }
 
@@ -197,9 +233,10 @@ Result<Simulation> simulate_turntable(const TriangleMesh& model, const Sensor& s
 
   auto staging = StagingFolder::create(folder, "simulation.json");
   if (!staging) return staging.error();
+  const Table table(sphere, params);
   std::string poses;
   for (int view = 0; view < params.views; ++view) {
-    const RigidTransform pose = view_pose(sphere, params, *distance, view);
+    const RigidTransform pose = table.seen_at(view, first_pose(sphere, params, *distance, view));
     const auto frame = camera->capture(
         pose,
         {params.noise, static_cast<std::uint64_t>(params.seed), static_cast<std::uint64_t>(view)},

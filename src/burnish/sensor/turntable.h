@@ -20,6 +20,9 @@ struct TurntableParams {
       0.4363323129985824;  ///< of the lowest ring of views above the horizontal, rad (25 deg)
   int rings = 2;           ///< rings of views between there and the top, visited in turn
   double noise = 1;        ///< share of the sensor's noise; 0: exact depth
+  double axis_offset = 0;  ///< of the table's axis from the middle of the model, m
+  double axis_tilt = 0;    ///< of the axis from the vertical, rad
+  double step_jitter = 0;  ///< one standard deviation of the table's angle at every view, rad
 
   static const Schema<TurntableParams>& schema();
 };
@@ -46,6 +49,8 @@ struct Simulation {
 ///   simulation.json               the parameters
 /// The axis is vertical (z) through the middle of the model's box. View i looks from azimuth
 /// 2 pi i / views and from ring i mod rings, ring r at elevation + r (pi/2 - elevation) / rings.
+/// axis_offset and axis_tilt move the axis, in directions that the seed chooses, where the camera
+/// and the model stay for the first view; step_jitter adds to every azimuth but the first.
 ///
 /// The folder is made; one that is there must be empty or hold an earlier simulation, whose frames
 /// are then replaced. On error or cancellation it is as before: pictures gather in a hidden
