@@ -76,8 +76,8 @@ inline TriangleMesh random_thing(Random& random, double size) {
 inline TriangleMesh random_room(Random& random) {
   TriangleMesh room;
   append(room, make_box({5, 4, 2.6}), {.translation = {0, 0, 1.3}});
-  for (int i = 0; i < 18; ++i) {
-    const double around = 2 * std::numbers::pi * (i + random.uniform(-0.3, 0.3)) / 18;
+  for (int i = 0; i < 22; ++i) {
+    const double around = 2 * std::numbers::pi * (i + random.uniform(-0.3, 0.3)) / 22;
     const double away = random.uniform(1.2, 1.9);
     const TriangleMesh thing = random_thing(random, random.uniform(0.25, 0.9));
     append(room, thing,
@@ -96,7 +96,7 @@ inline TriangleMesh random_room(Random& random) {
 inline RigidTransform random_stand(Random& random) {
   const Vec3d eye{random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), random.uniform(1.1, 1.6)};
   const double azimuth = random.uniform(0, 2 * std::numbers::pi);
-  const double down = random.uniform(0.05, 0.5);
+  const double down = random.uniform(0.15, 0.55);
   return look_at(eye, eye + Vec3d{std::cos(azimuth), std::sin(azimuth), -down}, {0, 0, 1});
 }
 
