@@ -24,7 +24,7 @@ struct Outcome {
 Outcome outcome_of(test::FramePair pair, const Context& context = {}) {
   const SurfaceView source = surface_view(pair.source).value();
   const SurfaceView target = surface_view(pair.target).value();
-  auto found = register_projective(source, target, pair.guess, {}, context);
+  auto found = register_projective(source, target, pair.guess, {.reach = pair.reach}, context);
   return {std::move(pair), std::move(found).value()};
 }
 

@@ -9,18 +9,11 @@
 #include "burnish/base/parallel.h"
 #include "burnish/registration/evidence.h"
 #include "burnish/registration/normal_equations.h"
+#include "burnish/registration/robust.h"
 
 namespace burnish {
 namespace {
 
-constexpr double kTukey = 4.685;
-constexpr double kLikeNormals = 0.5;    // cos 60 degrees
-constexpr double kInlier = 3;           // deviations
-constexpr double kStillShare = 0.1;     // of the pose's own deviation: a step that is none
-constexpr double kCoarseChange = 1e-2;  // rms of the residuals' change, in deviations
-constexpr double kFineDamping = 1e-6;   // of the mean diagonal
-constexpr double kCoarseDamping = 1e-3;
-constexpr double kGraduation = 3;  // by which the tolerance falls from level to level
 constexpr std::size_t kRowsAtOnce = 8;
 constexpr std::size_t kBlock = 16;  // pixels a side, in which evidence is looked at together
 constexpr std::size_t kEvidenceStep = 4;
@@ -99,9 +92,8 @@ void add_residual(const Candidate& candidate, const Projector& projector, double
   if (dot(n, projector.turn(*candidate.source)) < kLikeNormals) return;
   const double r = dot(n, candidate.place - Vec3d(t.position));
   const double variance = projector.variance(*candidate.source, t) + tolerance * tolerance;
-  const double inside = 1 - r * r / (variance * kTukey * kTukey);
-  if (!(inside > 0)) return;
-  const double trust = inside * inside;
+  const double trust = tukey_weight(r * r / variance);
+  if (!(trust > 0)) return;
   sums.add(moment_row(candidate.place, n), r, trust / variance);
   sums.weight += trust;
 }
@@ -140,7 +132,7 @@ class Witness {
         target_(target),
         projector_(target, T),
         noise_pixels_(shared_noise()),
-        bias_pixels_(shared_bias(target.camera.width)) {}
+        bias_pixels_(kBiasPatch * static_cast<double>(target.pixels.size())) {}
 
   std::size_t block_rows() const { return (source_.camera.height + kBlock - 1) / kBlock; }
 
@@ -224,8 +216,7 @@ Result<void> check_input(const SurfaceView& source, const SurfaceView& target,
       return Error{sound.error().code, sound.error().message, name};
     }
   }
-  if (rotation_defect(T) < 1e-3 && is_finite(T.translation)) return {};
-  return Error{ErrorCode::invalid_argument, "the pose is not a rotation and a translation", {}};
+  return check_pose(T);
 }
 
 Result<void> judge_pose(const SurfaceView& source, const SurfaceView& target,
@@ -281,9 +272,7 @@ Result<PairRegistration> register_projective(const SurfaceView& source, const Su
       const auto step = solve(*sums, finest ? kFineDamping : kCoarseDamping);
       if (!step) break;
       T = moved(T, step->twist);
-      pair.converged =
-          step->change <
-          (finest ? kStillShare * std::sqrt(shared_noise() / sums->weight) : kCoarseChange);
+      pair.converged = is_still(*step, *sums, finest, shared_noise());
     }
     tolerance /= kGraduation;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "burnish/base/context.h"
 #include "burnish/registration/pair.h"
 #include "burnish/registration/surface_view.h"
 
@@ -9,7 +10,7 @@ struct ProjectiveParams {
   double reach = 0.3;       ///< m; how far off the guess may put the surfaces
   int step = 2;             ///< every so-many-th row and column counts on the finest level
   int levels = 3;           ///< each coarser one takes every second of them
-  int max_iterations = 12;  ///< on each level
+  int max_iterations = 30;  ///< on each level
   AcceptanceParams acceptance;
 
   static const Schema<ProjectiveParams>& schema();
