@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <utility>
 
 #include "burnish/registration/cloud_surface.h"
 #include "burnish/registration/clouds.h"
@@ -14,6 +14,12 @@ struct CloudTarget {
 
   explicit CloudTarget(CloudSurface s) : surface(std::move(s)), grid(surface.positions) {}
 };
+
+/// Both clouds of a pair. Errors say which they are of.
+Result<std::pair<CloudTarget, CloudTarget>> cloud_surfaces(const PointCloud& source,
+                                                           const PointCloud& target,
+                                                           double distortion,
+                                                           const Context& context);
 
 /// The iterations of register_clouds and its verdict. T maps source positions to target positions,
 /// both relative to their origins.

@@ -198,6 +198,17 @@ const Schema<CloudsParams>& CloudsParams::schema() {
   return schema;
 }
 
+Result<std::pair<CloudTarget, CloudTarget>> cloud_surfaces(const PointCloud& source,
+                                                           const PointCloud& target,
+                                                           double distortion,
+                                                           const Context& context) {
+  Result<CloudSurface> s = cloud_surface(source, distortion, context.part(0, 0.5));
+  if (!s) return Error{s.error().code, s.error().message, "source"};
+  Result<CloudSurface> t = cloud_surface(target, distortion, context.part(0.5, 1));
+  if (!t) return Error{t.error().code, t.error().message, "target"};
+  return std::pair(CloudTarget(*std::move(s)), CloudTarget(*std::move(t)));
+}
+
 Result<PairRegistration> register_surfaces(const CloudTarget& source, const CloudTarget& target,
                                            const RigidTransform& guess, const CloudsParams& params,
                                            const Context& context) {
@@ -247,16 +258,12 @@ Result<PairRegistration> register_clouds(const PointCloud& source, const PointCl
                                          const CloudsParams& params, const Context& context) {
   if (auto valid = CloudsParams::schema().check(params); !valid) return valid.error();
   if (auto sound = check_pose(T_target_source_guess); !sound) return sound.error();
-  Result<CloudSurface> s = cloud_surface(source, params.distortion, context.part(0, 0.2));
-  if (!s)
-    return s.error().where.empty() ? Error{s.error().code, s.error().message, "source"} : s.error();
-  Result<CloudSurface> t = cloud_surface(target, params.distortion, context.part(0.2, 0.4));
-  if (!t)
-    return t.error().where.empty() ? Error{t.error().code, t.error().message, "target"} : t.error();
-  const Vec3d source_origin = s->origin, target_origin = t->origin;
+  auto surfaces = cloud_surfaces(source, target, params.distortion, context.part(0, 0.4));
+  if (!surfaces) return surfaces.error();
+  const CloudTarget &from = surfaces->first, &to = surfaces->second;
+  const Vec3d source_origin = from.surface.origin, target_origin = to.surface.origin;
   RigidTransform T = T_target_source_guess;
   T.translation += T.rotate(source_origin) - target_origin;
-  const CloudTarget from(*std::move(s)), to(*std::move(t));
   Result<PairRegistration> pair = register_surfaces(from, to, T, params, context.part(0.4, 1));
   if (!pair) return pair;
   return in_world(*std::move(pair), source_origin, target_origin);
