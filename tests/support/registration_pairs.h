@@ -232,7 +232,8 @@ inline FramePair bad_pair(std::uint64_t i, std::uint32_t coarseness = 1) {
       const TriangleMesh thing = random_thing(random, 0.5);
       const Vec3d ahead = stand.rotate({0, 0, 1});
       const Vec3d side = stand.rotate({random.below(2) == 0 ? 1.0 : -1.0, 0, 0});
-      const Vec3d place = Vec3d{stand.translation.x, stand.translation.y, stand.translation.z - 0.2} + ahead * 0.9;
+      const Vec3d place =
+          Vec3d{stand.translation.x, stand.translation.y, stand.translation.z - 0.2} + ahead * 0.9;
       TriangleMesh before = room, after = room;
       append(before, thing, {.translation = place});
       append(after, thing, {.translation = place + side * random.uniform(0.15, 0.4)});

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kGrain = 256;
 constexpr double kThinning = 3;         // from level to level
+constexpr double kContradicts = 5;      // deviations
 constexpr double kBeside = 2;           // spacings that a counterpart may be off along the surface
 constexpr double kFarOff = 8;           // spacings beyond which it is no counterpart at all
 constexpr double kWindowPoints = 30;    // that share the noise of their normals
@@ -143,10 +144,8 @@ void look(const Matcher& matcher, const Match& match, double share, double noise
   const bool near = off <= kInlier || std::abs(r) <= kFarOff * spacing;
   if (beside > kBeside * spacing || !near || match.agreement < kLikeNormals) return;
   ++sum.compared;
-  if (off > kInlier) {
-    ++sum.contradicted;
-    return;
-  }
+  if (off > kContradicts) ++sum.contradicted;
+  if (off > kInlier) return;
   sum.add_match(match.x, match.n, match.m,
                 1 / (share * (noise * noise_points + bias * bias_points)), off);
   sum.patches += 1 / (share * kWindowPoints);

@@ -18,9 +18,9 @@ struct CloudsParams {
                               ///< target's radius
   int samples = 20000;        ///< points of the source on the finest level
   int levels = 3;             ///< each coarser one takes a third of them
-  int max_iterations = 30;    ///< on each level
+  int max_iterations = 50;    ///< on each level
   double distortion = 0.002;  ///< systematic error of 1/z where a cloud has a viewpoint, 1/m
-  AcceptanceParams acceptance;
+  AcceptanceParams acceptance{};
 
   static const Schema<CloudsParams>& schema();
 };
@@ -41,7 +41,7 @@ struct CloudsParams {
 /// plane by. Robust weights, t and the way from coarse to fine are those of register_projective.
 ///
 /// The verdict is of the same kind, but that nothing tells free space here: what contradicts are
-/// points that lie over the target's surface, with a like normal, and off it by more than three
+/// points that lie over the target's surface, with a like normal, and off it by more than five
 /// deviations, in either direction. The same bytes for any number of threads. Building O(#P log
 /// #P), a step O(samples). Errors: invalid_argument, bad_geometry, cancelled.
 Result<PairRegistration> register_clouds(const PointCloud& source, const PointCloud& target,

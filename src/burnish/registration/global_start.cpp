@@ -20,6 +20,7 @@ constexpr double kTolerance = 2;         // cells by which a pose may miss
 constexpr std::size_t kHypotheses = 60;  // whose overlap is looked at
 constexpr double kNearCells = 1.5;       // within which a cell lies on the other surface
 constexpr double kLikeNormal = 0.7;
+constexpr double kWorthwhile = 0.6;  // of the best start's overlap
 
 double radius_of(const std::vector<Vec3f>& positions) {
   Vec3d sum;
@@ -82,18 +83,33 @@ bool better(const PairRegistration& a, const PairRegistration& b) {
 
 using Refine = std::function<Result<PairRegistration>(const RigidTransform&, const Context&)>;
 
-/// The best of what refining every start gives; refining the identity where there is no start.
-Result<PairRegistration> refine_all(std::vector<Hypothesis> starts, const Refine& refine,
-                                    const Context& context) {
+/// The best of what refining the starts gives; refining the identity where there is none. Starts
+/// that bring much less of the source onto the target than the first are left alone. Where two
+/// poses are acceptable that are unlike each other by `tolerance`, neither can be relied on.
+Result<PairRegistration> refine_all(std::vector<Hypothesis> starts, double tolerance,
+                                    const Refine& refine, const Context& context) {
   if (starts.empty()) starts.push_back({});
   std::optional<PairRegistration> best;
+  bool ambiguous = false;
   const double share = 1 / static_cast<double>(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
+    const Hypothesis& start = starts[i];
+    if (start.score < kWorthwhile * starts.front().score) break;
     const double begin = share * static_cast<double>(i);
     Result<PairRegistration> pair =
-        refine(starts[i].T_target_source, context.part(begin, begin + share));
+        refine(start.T_target_source, context.part(begin, begin + share));
     if (!pair) return pair;
+    if (best && best->accepted() && pair->accepted()) {
+      const Vec3d middle = best->T_target_source.inverse()(best->centre);
+      ambiguous =
+          ambiguous || !alike(best->T_target_source, pair->T_target_source, middle, tolerance);
+    }
     if (!best || better(*pair, *best)) best = *std::move(pair);
+  }
+  context.progress(1);
+  if (ambiguous) {
+    best->refusals.push_back(Refusal::ambiguous);
+    best->reason = "another pose explains the data as well";
   }
   return *std::move(best);
 }
@@ -145,7 +161,7 @@ Result<PairRegistration> register_clouds_globally(const PointCloud& source,
   CloudsParams refining = params;
   refining.reach = 2 * kTolerance * cell;
   auto pair = refine_all(
-      *starts,
+      *starts, kTolerance * cell,
       [&](const RigidTransform& T, const Context& part) {
         return register_surfaces(from, to, T, refining, part);
       },
@@ -172,7 +188,7 @@ Result<PairRegistration> register_views_globally(const SurfaceView& source,
   ProjectiveParams refining = params;
   refining.reach = 2 * kTolerance * cell;
   return refine_all(
-      *starts,
+      *starts, kTolerance * cell,
       [&](const RigidTransform& T, const Context& part) {
         return register_projective(source, target, T, refining, part);
       },

@@ -11,7 +11,7 @@ struct ProjectiveParams {
   int step = 2;             ///< every so-many-th row and column counts on the finest level
   int levels = 3;           ///< each coarser one takes every second of them
   int max_iterations = 30;  ///< on each level
-  AcceptanceParams acceptance;
+  AcceptanceParams acceptance{};
 
   static const Schema<ProjectiveParams>& schema();
 };
