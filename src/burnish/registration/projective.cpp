@@ -17,8 +17,7 @@ namespace {
 constexpr std::size_t kRowsAtOnce = 8;
 constexpr std::size_t kBlock = 16;  // pixels a side, in which evidence is looked at together
 constexpr std::size_t kEvidenceStep = 4;
-constexpr double kWindowPixels = 150;  // that share the noise of their normals
-constexpr std::size_t kFewest = 300;   // matches that a level must have
+constexpr std::size_t kFewest = 300;  // matches that a level must have
 /// How far a surface may curve within the half pixel by which counterparts miss each other, in
 /// pixels: what remains of a residual where both sensors are exact.
 constexpr double kCurvature = 0.05;
@@ -131,6 +130,7 @@ class Witness {
       : source_(source),
         target_(target),
         projector_(target, T),
+        normal_pixels_(std::max(source.normal_pixels, target.normal_pixels)),
         noise_pixels_(shared_noise()),
         bias_pixels_(kBiasPatch * static_cast<double>(target.pixels.size())) {}
 
@@ -180,14 +180,14 @@ class Witness {
       const double bias = Projector::square(s.bias) + Projector::square(t->bias);
       const double shared = (variance - bias) * noise_pixels_ + bias * bias_pixels_;
       sum.add_match(x, n, m, kEvidenceStep * kEvidenceStep / shared, far);
-      sum.patches += kEvidenceStep * kEvidenceStep / kWindowPixels;
+      sum.patches += kEvidenceStep * kEvidenceStep / normal_pixels_;
     }
   }
 
   const SurfaceView& source_;
   const SurfaceView& target_;
   Projector projector_;
-  double noise_pixels_, bias_pixels_;
+  double normal_pixels_, noise_pixels_, bias_pixels_;
 };
 
 std::optional<Evidence> gather_evidence(const SurfaceView& source, const SurfaceView& target,

@@ -99,6 +99,10 @@ double axial(const DepthNoise& noise, double z, double cosine, double grazing_co
   return noise.axial(z, grazing ? std::acos(cosine) : 0);
 }
 
+double square(double x) {
+  return x * x;
+}
+
 struct ViewBuilder {
   const DepthFrame& frame;
   const SurfaceViewParams& params;
@@ -162,6 +166,7 @@ Result<void> surface_view_into(const DepthFrame& frame, const SurfaceViewParams&
   if (auto sound = check(frame); !sound) return sound.error();
   view.camera = frame.camera;
   view.pixels.resize(frame.depth.size());
+  view.normal_pixels = 2 * square(2 * params.window + 1);
   ViewBuilder builder(frame, params);
   const std::size_t width = frame.camera.width, height = frame.camera.height;
   const auto window = static_cast<std::size_t>(params.window);
