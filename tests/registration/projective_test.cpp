@@ -21,16 +21,20 @@ struct Outcome {
   }
 };
 
+constexpr std::uint32_t kCoarseness = 2;
+constexpr SurfaceViewParams kCoarseView{.window = 2};
+
 Outcome outcome_of(test::FramePair pair, const Context& context = {}) {
-  const SurfaceView source = surface_view(pair.source).value();
-  const SurfaceView target = surface_view(pair.target).value();
-  auto found = register_projective(source, target, pair.guess, {}, context);
+  const SurfaceView source = surface_view(pair.source, kCoarseView).value();
+  const SurfaceView target = surface_view(pair.target, kCoarseView).value();
+  const ProjectiveParams params{.reach = pair.reach, .step = 1};
+  auto found = register_projective(source, target, pair.guess, params, context);
   return {std::move(pair), std::move(found).value()};
 }
 
 TEST(Projective, FindsAndAcceptsGoodPairs) {
-  for (std::uint64_t i = 0; i < 4; ++i) {
-    const Outcome outcome = outcome_of(test::good_pair(i));
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    const Outcome outcome = outcome_of(test::good_pair(i, kCoarseness));
     EXPECT_TRUE(outcome.found.accepted())
         << outcome.pair.kind << " " << i << ": " << outcome.found.reason;
     EXPECT_LT(outcome.error(), 0.004) << outcome.pair.kind << " " << i;
@@ -38,15 +42,15 @@ TEST(Projective, FindsAndAcceptsGoodPairs) {
 }
 
 TEST(Projective, RefusesBadPairs) {
-  for (std::uint64_t i = 0; i < 7; ++i) {
-    const Outcome outcome = outcome_of(test::bad_pair(i));
+  for (std::uint64_t i = 0; i < 14; ++i) {
+    const Outcome outcome = outcome_of(test::bad_pair(i, kCoarseness));
     EXPECT_FALSE(outcome.found.accepted()) << outcome.pair.kind << " " << i;
     EXPECT_EQ(outcome.found.reason.empty(), outcome.found.accepted());
   }
 }
 
 TEST(Projective, SameBytesForAnyNumberOfThreads) {
-  const test::FramePair pair = test::good_pair(0);
+  const test::FramePair pair = test::good_pair(0, kCoarseness);
   const Outcome one = outcome_of(pair, test::with_threads(1));
   const Outcome many = outcome_of(pair, test::with_threads(3));
   EXPECT_EQ(one.found.T_target_source, many.found.T_target_source);

@@ -20,6 +20,7 @@ struct FramePair {
   std::string kind;
   DepthFrame source, target;
   RigidTransform T_target_source, guess;
+  double reach = 0.3;  ///< m, how far off the guess may put the surfaces
 };
 
 namespace pairs {
@@ -76,8 +77,8 @@ inline TriangleMesh random_thing(Random& random, double size) {
 inline TriangleMesh random_room(Random& random) {
   TriangleMesh room;
   append(room, make_box({5, 4, 2.6}), {.translation = {0, 0, 1.3}});
-  for (int i = 0; i < 18; ++i) {
-    const double around = 2 * std::numbers::pi * (i + random.uniform(-0.3, 0.3)) / 18;
+  for (int i = 0; i < 22; ++i) {
+    const double around = 2 * std::numbers::pi * (i + random.uniform(-0.3, 0.3)) / 22;
     const double away = random.uniform(1.2, 1.9);
     const TriangleMesh thing = random_thing(random, random.uniform(0.25, 0.9));
     append(room, thing,
@@ -96,7 +97,7 @@ inline TriangleMesh random_room(Random& random) {
 inline RigidTransform random_stand(Random& random) {
   const Vec3d eye{random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), random.uniform(1.1, 1.6)};
   const double azimuth = random.uniform(0, 2 * std::numbers::pi);
-  const double down = random.uniform(0.05, 0.5);
+  const double down = random.uniform(0.15, 0.55);
   return look_at(eye, eye + Vec3d{std::cos(azimuth), std::sin(azimuth), -down}, {0, 0, 1});
 }
 
@@ -148,7 +149,9 @@ inline TriangleMesh random_figure(Random& random) {
   TriangleMesh figure;
   for (int i = 0; i < 5; ++i) {
     const Vec3d place = random_direction(random) * 0.09;
-    append(figure, random_thing(random, random.uniform(0.08, 0.16)), {.translation = place});
+    const Vec3d axis = random_direction(random);
+    const RigidTransform lying = turn_about(axis, random.uniform(0.2, 1), place);
+    append(figure, random_thing(random, random.uniform(0.08, 0.16)), lying);
   }
   return figure;
 }
@@ -171,8 +174,10 @@ inline FramePair good_pair(std::uint64_t i, std::uint32_t coarseness = 1) {
   const RigidTransform stand = look_at_origin(random, random.uniform(0.65, 0.9), 0.2, 0.8);
   const double step = random.uniform(10, 30) * kDegree;
   const double error = random.uniform(-2, 2) * kDegree;
-  return pair_of(i % 4 == 1 ? "turned teapot" : "turned figure", object, object, sensor, stand,
-                 around_axis(stand, step), around_axis(stand, step + error), i);
+  FramePair pair = pair_of(i % 4 == 1 ? "turned teapot" : "turned figure", object, object, sensor,
+                           stand, around_axis(stand, step), around_axis(stand, step + error), i);
+  pair.reach = 0.05;
+  return pair;
 }
 
 /// Pairs that a registration should refuse.
@@ -227,7 +232,8 @@ inline FramePair bad_pair(std::uint64_t i, std::uint32_t coarseness = 1) {
       const TriangleMesh thing = random_thing(random, 0.5);
       const Vec3d ahead = stand.rotate({0, 0, 1});
       const Vec3d side = stand.rotate({random.below(2) == 0 ? 1.0 : -1.0, 0, 0});
-      const Vec3d place = Vec3d{stand.translation.x, stand.translation.y, 0.6} + ahead * 1.3;
+      const Vec3d place =
+          Vec3d{stand.translation.x, stand.translation.y, stand.translation.z - 0.2} + ahead * 0.9;
       TriangleMesh before = room, after = room;
       append(before, thing, {.translation = place});
       append(after, thing, {.translation = place + side * random.uniform(0.15, 0.4)});

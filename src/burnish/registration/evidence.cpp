@@ -184,10 +184,26 @@ double shared_noise() {
          kArea * (kFineShare * kFineBlur * kFineBlur + kCoarseShare * kCoarseBlur * kCoarseBlur);
 }
 
-double shared_bias(double width) {
-  // Distortion maps of depth cameras vary over about a tenth of the image.
-  const double side = width / 10;
-  return side * side;
+void move_twists(const Vec3d& origin, PairRegistration& pair) {
+  const auto matrix_of = [](const Matrix6& m) {
+    Matrix result;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      for (Eigen::Index j = 0; j < 6; ++j) {
+        result(i, j) = m[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+      }
+    }
+    return result;
+  };
+  // A twist about `origin` is one about the new origin whose translation is less by rotation x
+  // origin.
+  const Matrix change = from_centre(origin, 1), back = from_centre(-origin, 1);
+  pair.covariance = plain(change * matrix_of(pair.covariance) * change.transpose());
+  pair.information = plain(back.transpose() * matrix_of(pair.information) * back);
+}
+
+Result<void> check_pose(const RigidTransform& T) {
+  if (rotation_defect(T) < 1e-3 && is_finite(T.translation)) return {};
+  return Error{ErrorCode::invalid_argument, "the pose is not a rotation and a translation", {}};
 }
 
 }  // namespace burnish

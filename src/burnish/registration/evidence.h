@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 
+#include "burnish/base/result.h"
 #include "burnish/registration/normal_equations.h"
 #include "burnish/registration/pair.h"
 
@@ -38,6 +39,17 @@ struct Evidence {
 /// judges it. `forward`: of the source in the target; `backward`: of the target in the source.
 void judge(const Evidence& forward, const Evidence& backward, const AcceptanceParams& acceptance,
            PairRegistration& pair);
+
+/// Covariance and information of twists about the origin of a frame in which what was the origin is
+/// at `origin`.
+void move_twists(const Vec3d& origin, PairRegistration& pair);
+
+/// Errors: invalid_argument where it is no rotation and a translation.
+Result<void> check_pose(const RigidTransform& T);
+
+/// Systematic errors of depth cameras vary over about a tenth of the image: this share of it has
+/// one.
+inline constexpr double kBiasPatch = 0.01;
 
 /// The number of pixels that count as one measurement of a depth camera: by how far neighbours
 /// share their random error (core/noise_correlation.h), and their systematic one in an image of

@@ -14,6 +14,8 @@ std::string_view to_string(Refusal refusal) {
       return "contradiction";
     case Refusal::not_held:
       return "not_held";
+    case Refusal::ambiguous:
+      return "ambiguous";
   }
   return "";
 }

@@ -28,6 +28,7 @@ enum class Refusal {
   residual_above_noise,  ///< counterparts differ by more than both sensors' noise
   contradiction,         ///< one shows surface where the other saw through
   not_held,              ///< in some direction the surfaces slide along each other
+  ambiguous,             ///< another pose explains the data as well (global start)
 };
 
 std::string_view to_string(Refusal refusal);

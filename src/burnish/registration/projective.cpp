@@ -3,27 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "burnish/base/parallel.h"
 #include "burnish/registration/evidence.h"
 #include "burnish/registration/normal_equations.h"
+#include "burnish/registration/robust.h"
 
 namespace burnish {
 namespace {
 
-constexpr double kTukey = 4.685;
-constexpr double kLikeNormals = 0.5;    // cos 60 degrees
-constexpr double kInlier = 3;           // deviations
-constexpr double kStillShare = 0.1;     // of the pose's own deviation: a step that is none
-constexpr double kCoarseChange = 1e-2;  // rms of the residuals' change, in deviations
-constexpr double kFineDamping = 1e-6;   // of the mean diagonal
-constexpr double kCoarseDamping = 1e-3;
-constexpr double kGraduation = 3;  // by which the tolerance falls from level to level
 constexpr std::size_t kRowsAtOnce = 8;
 constexpr std::size_t kBlock = 16;  // pixels a side, in which evidence is looked at together
-constexpr std::size_t kEvidenceStep = 2;
-constexpr double kWindowPixels = 150;  // that share the noise of their normals
-constexpr std::size_t kFewest = 300;   // matches that a level must have
+constexpr std::size_t kEvidenceStep = 4;
+constexpr std::size_t kFewest = 300;  // matches that a level must have
 /// How far a surface may curve within the half pixel by which counterparts miss each other, in
 /// pixels: what remains of a residual where both sensors are exact.
 constexpr double kCurvature = 0.05;
@@ -65,42 +59,67 @@ class Projector {
   const RigidTransform& T_;
 };
 
-/// One pass: what every `step`-th pixel of the source asks for.
+/// A point of the source, brought to the target, and the pixel that it is seen in.
+struct Candidate {
+  const SurfacePixel* source;
+  const SurfacePixel* target;
+  Vec3d place;
+};
+
+/// The candidates of every `step`-th pixel of one row. Looking all of them up before any is used
+/// lets the processor fetch their pixels side by side: waiting for these is half of the time.
+void look_up(const SurfacePixel* row, std::size_t width, std::size_t step,
+             const Projector& projector, std::vector<Candidate>& candidates) {
+  candidates.clear();
+  for (std::size_t column = step / 2; column < width; column += step) {
+    const SurfacePixel& s = row[column];
+    if (!has_normal(s)) continue;
+    const Vec3d x = projector.place(s);
+    const SurfacePixel* const t = projector.find(x);
+    if (!t) continue;
+    __builtin_prefetch(t);
+    candidates.push_back({&s, t, x});
+  }
+}
+
+/// Adds a candidate to a pass whose residuals have the variance of the noise and `tolerance` more.
+void add_residual(const Candidate& candidate, const Projector& projector, double tolerance,
+                  NormalEquations& sums) {
+  const SurfacePixel& t = *candidate.target;
+  if (!has_normal(t)) return;
+  const Vec3d n(t.normal);
+  if (dot(n, projector.turn(*candidate.source)) < kLikeNormals) return;
+  const double r = dot(n, candidate.place - Vec3d(t.position));
+  const double variance = projector.variance(*candidate.source, t) + tolerance * tolerance;
+  const double trust = tukey_weight(r * r / variance);
+  if (!(trust > 0)) return;
+  sums.add(moment_row(candidate.place, n), r, trust / variance);
+  sums.weight += trust;
+}
+
+/// One pass: what every `step`-th row and column of the source asks for.
 std::optional<NormalEquations> gather(const SurfaceView& source, const SurfaceView& target,
                                       const RigidTransform& T, std::size_t step, double tolerance,
                                       const Context& context) {
   const std::size_t width = source.camera.width, first = step / 2;
   const std::size_t rows = (source.camera.height + step - 1 - first) / step;
   const Projector projector(target, T);
-  const auto map = [&](IndexRange range) {
-    NormalEquations sums;
-    for (std::size_t row = range.begin; row < range.end; ++row) {
-      const SurfacePixel* const line = source.pixels.data() + (first + row * step) * width;
-      for (std::size_t column = first; column < width; column += step) {
-        const SurfacePixel& s = line[column];
-        if (!has_normal(s)) continue;
-        const Vec3d x = projector.place(s);
-        const SurfacePixel* const t = projector.find(x);
-        if (!t || !has_normal(*t)) continue;
-        const Vec3d n(t->normal);
-        if (dot(n, projector.turn(s)) < kLikeNormals) continue;
-        const double r = dot(n, x - Vec3d(t->position));
-        const double variance = projector.variance(s, *t) + tolerance * tolerance;
-        const double outside = 1 - r * r / (variance * kTukey * kTukey);
-        if (!(outside > 0)) continue;
-        const double trust = outside * outside;
-        sums.add(moment_row(x, n), r, trust / variance);
-        sums.weight += trust;
-      }
-    }
-    return sums;
-  };
   NormalEquations total;
-  if (!parallel_reduce(
-          context, rows, total, map,
-          [](NormalEquations& sum, const NormalEquations& part) { sum += part; }, kRowsAtOnce)) {
-    return {};
-  }
+  const bool complete = parallel_reduce(
+      context, rows, total,
+      [&](IndexRange range) {
+        NormalEquations sums;
+        std::vector<Candidate> candidates;
+        candidates.reserve(width / step + 1);
+        for (std::size_t row = range.begin; row < range.end; ++row) {
+          const SurfacePixel* const pixels = source.pixels.data() + (first + row * step) * width;
+          look_up(pixels, width, step, projector, candidates);
+          for (const Candidate& c : candidates) add_residual(c, projector, tolerance, sums);
+        }
+        return sums;
+      },
+      [](NormalEquations& sum, const NormalEquations& part) { sum += part; }, kRowsAtOnce);
+  if (!complete) return {};
   return total;
 }
 
@@ -111,8 +130,9 @@ class Witness {
       : source_(source),
         target_(target),
         projector_(target, T),
+        normal_pixels_(std::max(source.normal_pixels, target.normal_pixels)),
         noise_pixels_(shared_noise()),
-        bias_pixels_(shared_bias(target.camera.width)) {}
+        bias_pixels_(kBiasPatch * static_cast<double>(target.pixels.size())) {}
 
   std::size_t block_rows() const { return (source_.camera.height + kBlock - 1) / kBlock; }
 
@@ -160,14 +180,14 @@ class Witness {
       const double bias = Projector::square(s.bias) + Projector::square(t->bias);
       const double shared = (variance - bias) * noise_pixels_ + bias * bias_pixels_;
       sum.add_match(x, n, m, kEvidenceStep * kEvidenceStep / shared, far);
-      sum.patches += kEvidenceStep * kEvidenceStep / kWindowPixels;
+      sum.patches += kEvidenceStep * kEvidenceStep / normal_pixels_;
     }
   }
 
   const SurfaceView& source_;
   const SurfaceView& target_;
   Projector projector_;
-  double noise_pixels_, bias_pixels_;
+  double normal_pixels_, noise_pixels_, bias_pixels_;
 };
 
 std::optional<Evidence> gather_evidence(const SurfaceView& source, const SurfaceView& target,
@@ -196,8 +216,7 @@ Result<void> check_input(const SurfaceView& source, const SurfaceView& target,
       return Error{sound.error().code, sound.error().message, name};
     }
   }
-  if (rotation_defect(T) < 1e-3 && is_finite(T.translation)) return {};
-  return Error{ErrorCode::invalid_argument, "the pose is not a rotation and a translation", {}};
+  return check_pose(T);
 }
 
 Result<void> judge_pose(const SurfaceView& source, const SurfaceView& target,
@@ -221,8 +240,10 @@ const Schema<ProjectiveParams>& ProjectiveParams::schema() {
       Schema<P>()
           .real("reach", &P::reach, more_than(0), "how far off the guess may put the surfaces",
                 Quantity::length)
-          .integer("levels", &P::levels, between(1, 8),
-                   "the coarsest takes every 2^(levels - 1)-th row and column")
+          .integer("step", &P::step, between(1, 64),
+                   "every so-many-th row and column counts on the finest level")
+          .integer("levels", &P::levels, between(1, 6),
+                   "each coarser one takes every second of them")
           .integer("max_iterations", &P::max_iterations, between(1, 1000), "on each level")
           .group(&P::acceptance, AcceptanceParams::schema());
   return schema;
@@ -244,16 +265,14 @@ Result<PairRegistration> register_projective(const SurfaceView& source, const Su
     const double begin = 0.9 * (params.levels - 1 - level) / params.levels;
     const double share = 0.9 / (params.levels * params.max_iterations);
     for (int i = 0; i < params.max_iterations && !pair.converged; ++i, ++pair.iterations) {
-      const auto sums = gather(source, target, T, std::size_t{1} << level, tolerance,
+      const auto sums = gather(source, target, T, std::size_t(params.step) << level, tolerance,
                                context.part(begin + share * i, begin + share * (i + 1)));
       if (!sums) return cancelled();
       if (!finest && sums->count < kFewest) break;
       const auto step = solve(*sums, finest ? kFineDamping : kCoarseDamping);
       if (!step) break;
       T = moved(T, step->twist);
-      pair.converged =
-          step->change <
-          (finest ? kStillShare * std::sqrt(shared_noise() / sums->weight) : kCoarseChange);
+      pair.converged = is_still(*step, *sums, finest, shared_noise());
     }
     tolerance /= kGraduation;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "burnish/base/context.h"
 #include "burnish/registration/pair.h"
 #include "burnish/registration/surface_view.h"
 
@@ -7,9 +8,10 @@ namespace burnish {
 
 struct ProjectiveParams {
   double reach = 0.3;       ///< m; how far off the guess may put the surfaces
-  int levels = 4;           ///< the coarsest takes every 2^(levels - 1)-th row and column
-  int max_iterations = 12;  ///< on each level
-  AcceptanceParams acceptance;
+  int step = 2;             ///< every so-many-th row and column counts on the finest level
+  int levels = 3;           ///< each coarser one takes every second of them
+  int max_iterations = 30;  ///< on each level
+  AcceptanceParams acceptance{};
 
   static const Schema<ProjectiveParams>& schema();
 };
@@ -22,7 +24,7 @@ struct ProjectiveParams {
 ///   sum rho(r / s),  r = n . (x - q),  s^2 = sigma_x^2 + sigma_q^2 + bias_x^2 + bias_q^2 + t^2,
 /// with q and n of the target (Chen and Medioni 1991) and Tukey's biweight of c = 4.685 for rho
 /// (Beaton and Tukey 1974; 95 % efficient on normal errors, Holland and Welsch 1977), by
-/// Gauss-Newton on SE(3). It goes from few pixels to all, while t falls from reach / c by a factor
+/// Gauss-Newton on SE(3). It goes from few pixels to many, while t falls from reach / c by a factor
 /// of three from level to level to 0 on the finest (graduated non-convexity, Blake and Zisserman
 /// 1987).
 ///

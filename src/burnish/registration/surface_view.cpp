@@ -92,19 +92,25 @@ struct WindowSums {
   }
 };
 
-/// The deviation along the ray of a pixel seen under an angle of cosine `cosine`.
-double axial(const DepthNoise& noise, double z, double cosine) {
-  const double theta = noise.grazing != 0 ? std::acos(cosine) : 0;
-  return noise.axial(z, theta);
+/// The deviation along the ray of a pixel seen under an angle of cosine `cosine`; the arc cosine
+/// only where the noise depends on it.
+double axial(const DepthNoise& noise, double z, double cosine, double grazing_cosine) {
+  const bool grazing = noise.grazing != 0 && cosine < grazing_cosine;
+  return noise.axial(z, grazing ? std::acos(cosine) : 0);
+}
+
+double square(double x) {
+  return x * x;
 }
 
 struct ViewBuilder {
   const DepthFrame& frame;
   const SurfaceViewParams& params;
   Slopes slopes;
+  double grazing_cosine;
 
   ViewBuilder(const DepthFrame& f, const SurfaceViewParams& p)
-      : frame(f), params(p), slopes(f.camera) {}
+      : frame(f), params(p), slopes(f.camera), grazing_cosine(std::cos(f.noise.grazing_from)) {}
 
   void gather_depth(std::size_t i) {
     const DepthNoise& noise = frame.noise;
@@ -135,8 +141,8 @@ struct ViewBuilder {
     const double cosine = std::min(1.0, w / (length * std::sqrt(u * u + v * v + 1)));
     if (cosine < kLeastCosine) return result;
     result.normal = Vec3f(normal / length);
-    result.sigma =
-        static_cast<float>(frame.sigma_share_of(i) * axial(frame.noise, z, cosine) * cosine);
+    const double error = axial(frame.noise, z, cosine, grazing_cosine);
+    result.sigma = static_cast<float>(frame.sigma_share_of(i) * error * cosine);
     result.bias = static_cast<float>(params.distortion * z * z * cosine);
     return result;
   }
@@ -160,6 +166,7 @@ Result<void> surface_view_into(const DepthFrame& frame, const SurfaceViewParams&
   if (auto sound = check(frame); !sound) return sound.error();
   view.camera = frame.camera;
   view.pixels.resize(frame.depth.size());
+  view.normal_pixels = 2 * square(2 * params.window + 1);
   ViewBuilder builder(frame, params);
   const std::size_t width = frame.camera.width, height = frame.camera.height;
   const auto window = static_cast<std::size_t>(params.window);

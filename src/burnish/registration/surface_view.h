@@ -20,6 +20,7 @@ struct SurfacePixel {
 struct SurfaceView {
   Camera camera;
   std::vector<SurfacePixel> pixels;  ///< width * height, row by row
+  double normal_pixels = 162;        ///< about so many neighbours share the error of their normals
 };
 
 struct SurfaceViewParams {
@@ -37,6 +38,7 @@ struct SurfaceViewParams {
 ///   sigma = axial(z, theta) cos(theta), the sensor's noise along the ray seen through the normal;
 ///   bias = distortion z^2 cos(theta): calibration leaves a low-frequency distortion of about half
 ///   a disparity step (Herrera, Kannala and Heikkila 2012; Teichman, Miller and Thrun 2013).
+///   normal_pixels = 2 (2 window + 1)^2: the window, and what the noise itself is correlated over.
 /// Depths outside the sensor's range are unknown. The frame's pose is not looked at. O(#pixels).
 /// Errors: invalid_argument, bad_geometry, cancelled.
 Result<SurfaceView> surface_view(const DepthFrame& frame, const SurfaceViewParams& params = {},
