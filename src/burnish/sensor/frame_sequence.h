@@ -8,6 +8,7 @@
 #include "burnish/base/result.h"
 #include "burnish/core/depth_frame.h"
 #include "burnish/io/depth_image.h"
+#include "burnish/sensor/frame_poses.h"
 #include "burnish/sensor/presets.h"
 
 namespace burnish {
@@ -18,13 +19,6 @@ struct FrameOptions {
   std::optional<Camera> camera{};  ///< width and height 0: those of the frames
   std::string sensor{};            ///< a name for find_sensor: noise, range, camera of last resort
   std::optional<double> depth_scale{};  ///< metres per unit of the images
-};
-
-/// A depth image on disk and what is known of it.
-struct FrameFile {
-  std::filesystem::path image;
-  std::optional<RigidTransform> T_world_camera;
-  double time = 0;  ///< s
 };
 
 /// Depth frames that lie in files and are read one at a time. Cheap to copy; read() may be called
