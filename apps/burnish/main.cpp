@@ -46,7 +46,7 @@ int run(int count, char** words) {
                                     add_simplify(app),    add_refine(app),      add_adapt(app),
                                     add_progressive(app), add_extract(app),     add_verify(app),
                                     add_convert(app),     add_measure(app),     add_simulate(app),
-                                    add_reproduce(app),   add_list(app)};
+                                    add_import(app),      add_reproduce(app),   add_list(app)};
   try {
     app.parse(count, words);
   } catch (const CLI::Success& help) {

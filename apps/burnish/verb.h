@@ -42,6 +42,7 @@ Action add_verify(CLI::App& app);
 Action add_convert(CLI::App& app);
 Action add_measure(CLI::App& app);
 Action add_simulate(CLI::App& app);
+Action add_import(CLI::App& app);
 Action add_reproduce(CLI::App& app);
 Action add_list(CLI::App& app);
 
