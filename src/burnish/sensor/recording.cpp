@@ -166,7 +166,7 @@ Facts ImportReport::facts() const {
 }
 
 const std::vector<RecordingFormat>& recording_formats() {
-  static const std::vector<RecordingFormat> all{tum_format(), images_format()};
+  static const std::vector<RecordingFormat> all{klg_format(), tum_format(), images_format()};
   return all;
 }
 
