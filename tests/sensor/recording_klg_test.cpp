@@ -2,8 +2,6 @@
 
 #include <zlib.h>
 
-#include <cstring>
-
 #include "sensor/recordings.h"
 #include "support/peak_memory.h"
 
@@ -11,18 +9,12 @@ namespace burnish {
 namespace {
 
 using test::expect_refused;
+using test::raw;
 using test::TemporaryFolder;
 using test::write_text;
 
 constexpr std::uint32_t kWidth = 160, kHeight = 120;
 constexpr std::size_t kPixels = kWidth * kHeight;
-
-template <class T>
-std::string raw(T value) {
-  std::string bytes(sizeof(T), 0);
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  return bytes;
-}
 
 std::string packed(std::string_view bytes) {
   uLongf size = compressBound(bytes.size());
@@ -34,8 +26,7 @@ std::string packed(std::string_view bytes) {
 }
 
 std::string depth_bytes(int image) {
-  const auto depths = test::some_depths(kWidth, kHeight, image);
-  return {reinterpret_cast<const char*>(depths.data()), 2 * depths.size()};
+  return test::raw_depths(test::some_depths(kWidth, kHeight, image));
 }
 
 std::string frame(std::int64_t microseconds, const std::string& depth, const std::string& color) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -25,6 +26,19 @@ inline std::vector<std::uint16_t> some_depths(std::uint32_t width, std::uint32_t
     depths[i] = static_cast<std::uint16_t>(i % 17 == 0 ? 0 : 500 + (31 * i + 997 * image) % 3000);
   }
   return depths;
+}
+
+/// The bytes of a number as a recording holds them.
+template <class T>
+std::string raw(T value) {
+  std::string bytes(sizeof(T), 0);
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  return bytes;
+}
+
+/// The same of many numbers.
+inline std::string raw_depths(const std::vector<std::uint16_t>& depths) {
+  return {reinterpret_cast<const char*>(depths.data()), 2 * depths.size()};
 }
 
 inline std::string bytes_of(const std::filesystem::path& path) {

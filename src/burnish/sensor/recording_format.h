@@ -54,6 +54,7 @@ struct RecordingFormat {
                                              const ImportParams& params);
 };
 
+RecordingFormat pclzf_format();
 RecordingFormat klg_format();
 RecordingFormat tum_format();
 RecordingFormat images_format();
