@@ -104,7 +104,8 @@ class Census {
     return {};
   }
 
-  ImportReport report(const RecordingFormat& format, std::vector<std::string> notes) && {
+  ImportReport report(const RecordingFormat& format, std::vector<std::string> notes,
+                      bool poses_wanted) && {
     report_.format = format.title;
     report_.notes = std::move(notes);
     report_.measured_share = double(measured_) / double(std::max<std::size_t>(pixels_, 1));
@@ -112,7 +113,7 @@ class Census {
       report_.notes.push_back(fmt::format(
           "the timestamps of {} frames are not after those of the frames before", late_));
     }
-    if (report_.posed_frames == 0) report_.notes.push_back("no frame has a pose");
+    if (poses_wanted && report_.posed_frames == 0) report_.notes.push_back("no frame has a pose");
     return std::move(report_);
   }
 
@@ -166,8 +167,8 @@ Facts ImportReport::facts() const {
 }
 
 const std::vector<RecordingFormat>& recording_formats() {
-  static const std::vector<RecordingFormat> all{pclzf_format(), klg_format(), tum_format(),
-                                                images_format()};
+  static const std::vector<RecordingFormat> all{pclzf_format(), klg_format(), fakenect_format(),
+                                                tum_format(), images_format()};
   return all;
 }
 
@@ -210,7 +211,7 @@ Result<ImportReport> import_recording(const fs::path& path, const fs::path& fold
     context.progress(double(i + 1) / double(count));
   }
   const RecordingInfo& info = recording.info();
-  ImportReport report = std::move(census).report(*open->format, info.notes);
+  ImportReport report = std::move(census).report(*open->format, info.notes, params.poses);
   const std::string json = summary_json(path, open->format->name, info, camera, params, report);
   if (context.cancelled()) return cancelled();
   if (auto done = frames->finish(camera, json); !done) return done.error();

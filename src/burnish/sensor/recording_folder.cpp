@@ -12,6 +12,13 @@
 namespace burnish {
 namespace fs = std::filesystem;
 
+Result<ColorImage> read_color(const ColorFile& file) {
+  if (file.image.empty()) return ColorImage{};
+  auto color = read_color_image(file.image);
+  if (color) color->time = file.time;
+  return color;
+}
+
 Result<RecordedFrame> FolderRecording::read(std::size_t i) {
   const FrameFile& file = files_[i];
   const auto bytes = read_file(file.image);
@@ -29,12 +36,9 @@ Result<RecordedFrame> FolderRecording::read(std::size_t i) {
   if (bytes->text().starts_with("\x89PNG")) frame.png = bytes->text();
   if (timed_) frame.time = file.time;
   frame.T_world_camera = file.T_world_camera;
-  if (!colors_[i].image.empty()) {
-    auto color = read_color_image(colors_[i].image);
-    if (!color) return color.error();
-    frame.color = *std::move(color);
-    frame.color.time = colors_[i].time;
-  }
+  auto color = read_color(colors_[i]);
+  if (!color) return color.error();
+  frame.color = *std::move(color);
   return frame;
 }
 

@@ -11,6 +11,9 @@ struct ColorFile {
   std::optional<double> time{};
 };
 
+/// Reads it; nothing where there is none. Errors: those of read_color_image.
+Result<ColorImage> read_color(const ColorFile& file);
+
 /// A recording that is a folder of depth images.
 class FolderRecording : public Recording {
  public:

@@ -54,6 +54,7 @@ struct RecordingFormat {
                                              const ImportParams& params);
 };
 
+RecordingFormat fakenect_format();
 RecordingFormat pclzf_format();
 RecordingFormat klg_format();
 RecordingFormat tum_format();
