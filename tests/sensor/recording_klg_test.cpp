@@ -4,6 +4,7 @@
 
 #include "sensor/recordings.h"
 #include "support/peak_memory.h"
+#include "support/recording_promises.h"
 
 namespace burnish {
 namespace {
@@ -130,6 +131,14 @@ TEST(ImportKlg, HoldsOneFrameAtATime) {
       [&] { return import_recording(folder / "log", folder / "out").has_value(); });
   // All of them have 32 MB; one has 2, and again as many while it is unpacked and counted.
   EXPECT_LT(peak, std::size_t{16} << 20);
+}
+
+/// What fuzzing begins with, and what it found.
+TEST(ImportKlg, KeepsItsPromisesForTheSeeds) {
+  const auto seeds = test::source_folder() / "fuzz" / "seeds" / "klg";
+  for (const auto& entry : std::filesystem::directory_iterator(seeds)) {
+    test::expect_klg_promises_kept(test::bytes_of(entry.path()));
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "burnish/io/geometry_file.h"
 #include "sensor/recordings.h"
+#include "support/recording_promises.h"
 
 namespace burnish {
 namespace {
@@ -149,6 +150,14 @@ TEST(ImportPclzf, ARealFrameIsThatOfItsTiffAndItsCloud) {
     const Vec3d p = frame->camera.unproject(i % 640, i / 640, frame->depth[i]);
     ASSERT_NEAR(points[i].x, p.x, 2e-6) << i;
     ASSERT_NEAR(points[i].y, p.y, 2e-6) << i;
+  }
+}
+
+/// What fuzzing begins with, and what it found.
+TEST(ImportPclzf, KeepsItsPromisesForTheSeeds) {
+  const auto seeds = test::source_folder() / "fuzz" / "seeds" / "pclzf";
+  for (const auto& entry : std::filesystem::directory_iterator(seeds)) {
+    test::expect_pclzf_promises_kept(test::bytes_of(entry.path()));
   }
 }
 
