@@ -16,6 +16,10 @@ void add_frame_options(CLI::App* verb, FrameTexts& texts) {
       "--poses", texts.poses,
       "poses of the camera in the world: lines x y z qx qy qz qw, a TUM trajectory, or a "
       "Redwood trajectory.log; default: what lies beside the frames");
+  add_camera_options(verb, texts);
+}
+
+void add_camera_options(CLI::App* verb, FrameTexts& texts) {
   auto* camera =
       verb->add_option("--camera", texts.camera, "focal lengths and principal point, pixels")
           ->type_name("fx,fy,cx,cy");

@@ -15,6 +15,9 @@ struct FrameTexts {
 /// Adds --poses, --camera, --sensor and --depth_scale to a verb.
 void add_frame_options(CLI::App* verb, FrameTexts& texts);
 
+/// The same without --poses.
+void add_camera_options(CLI::App* verb, FrameTexts& texts);
+
 /// Errors: invalid_argument.
 Result<FrameOptions> read_frame_texts(const FrameTexts& texts);
 

@@ -30,6 +30,7 @@ struct Session {
 using Action = std::function<Result<void>(const Session&, const Context&)>;
 
 /// Each adds one verb to the program and returns what it does.
+Action add_register(CLI::App& app);
 Action add_reconstruct(CLI::App& app);
 Action add_triangulate(CLI::App& app);
 Action add_repair(CLI::App& app);
@@ -43,6 +44,7 @@ Action add_verify(CLI::App& app);
 Action add_convert(CLI::App& app);
 Action add_measure(CLI::App& app);
 Action add_simulate(CLI::App& app);
+Action add_import(CLI::App& app);
 Action add_reproduce(CLI::App& app);
 Action add_list(CLI::App& app);
 

@@ -49,7 +49,7 @@ TEST(Program, SaysItsVersion) {
 TEST(Program, EveryVerbHasHelpWithAnExample) {
   for (const char* verb :
        {"reconstruct", "triangulate", "smooth", "simplify", "refine", "adapt", "progressive",
-        "extract", "verify", "convert", "measure", "simulate", "reproduce", "list"}) {
+        "extract", "verify", "convert", "measure", "simulate", "import", "reproduce", "list"}) {
     const Outcome outcome = burnish({verb, "--help"});
     EXPECT_EQ(outcome.status, 0) << verb;
     EXPECT_NE(outcome.out.find(std::string("burnish ") + verb), std::string::npos) << outcome.out;

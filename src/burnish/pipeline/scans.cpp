@@ -195,6 +195,13 @@ Result<std::unique_ptr<Scans>> open_clouds(const ScanInputs& inputs, const Frame
   if (!inputs.frames.poses.empty()) {
     Result<PoseList> list = read_pose_list(inputs.frames.poses);
     if (!list) return std::move(list).error();
+    if (const auto unknown = std::find(list->unknown.begin(), list->unknown.end(), true);
+        unknown != list->unknown.end()) {
+      return Error{ErrorCode::invalid_argument,
+                   fmt::format("cloud {} has no pose there: leave it out of the input",
+                               unknown - list->unknown.begin()),
+                   inputs.frames.poses.string()};
+    }
     poses = std::move(list->poses);
     if (poses.size() != inputs.paths.size()) {
       return Error{ErrorCode::invalid_argument,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <functional>
 
 #include "burnish/io/cursor.h"
@@ -52,26 +53,15 @@ Result<std::vector<fs::path>> images_in(const fs::path& folder) {
   return images;
 }
 
-/// Reads TUM's `timestamp file` lines; the files must lie below the folder of the list.
+/// The images that a depth.txt of TUM RGB-D lists.
 Result<FrameLayout> read_tum_list(const fs::path& list) {
-  const auto file = read_file(list);
-  if (!file) return file.error();
-  const fs::path folder = list.parent_path();
+  auto images = read_image_list(list);
+  if (!images) return images.error();
   FrameLayout layout;
-  layout.folders = {folder};
+  layout.images = std::move(images->images);
+  layout.times = std::move(images->times);
+  layout.folders = {list.parent_path()};
   layout.whole_folder = layout.tum = true;
-  Cursor cursor(file->text(), list.string(), {.blanks = " \t,", .comment = '#'});
-  for (; cursor.next_filled_line(); cursor.next_line()) {
-    double time = 0;
-    if (!cursor.number(time)) return cursor.line_error("a timestamp and a file are expected");
-    const fs::path image = fs::path(cursor.word()).lexically_normal();
-    if (image.empty() || image.is_absolute() || *image.begin() == "..") {
-      return cursor.line_error("a file below the folder of this list is expected");
-    }
-    layout.times.push_back(time);
-    layout.images.push_back(folder / image);
-  }
-  if (layout.images.empty()) return cursor.line_error("the list names no image");
   return layout;
 }
 
@@ -127,6 +117,27 @@ std::optional<fs::path> find_in(const std::vector<fs::path>& folders,
 }
 
 }  // namespace
+
+Result<ImageList> read_image_list(const fs::path& path) {
+  const auto file = read_file(path);
+  if (!file) return file.error();
+  ImageList list;
+  Cursor cursor(file->text(), path.string(), {.blanks = " \t,", .comment = '#'});
+  for (; cursor.next_filled_line(); cursor.next_line()) {
+    double time = 0;
+    if (!cursor.number(time) || !std::isfinite(time)) {
+      return cursor.line_error("a timestamp and a file are expected");
+    }
+    const fs::path image = fs::path(cursor.word()).lexically_normal();
+    if (image.empty() || image.is_absolute() || *image.begin() == "..") {
+      return cursor.line_error("a file below the folder of this list is expected");
+    }
+    list.times.push_back(time);
+    list.images.push_back(path.parent_path() / image);
+  }
+  if (list.images.empty()) return cursor.line_error("the list names no image");
+  return list;
+}
 
 bool is_depth_image(const fs::path& path) {
   std::string extension = path.extension().string();

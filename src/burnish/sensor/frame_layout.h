@@ -19,6 +19,19 @@ struct FrameLayout {
   bool tum = false;           ///< a depth.txt of TUM RGB-D lists the images
 };
 
+/// Metres per unit of the images that TUM RGB-D lists.
+inline constexpr double kTumDepthScale = 1.0 / 5000;
+
+/// Images with their times (s), one each.
+struct ImageList {
+  std::vector<std::filesystem::path> images;
+  std::vector<double> times;
+};
+
+/// Reads the `timestamp file` lines of TUM RGB-D (# begins a comment), at least one; the files must
+/// lie below the folder of the list. Errors: not_found, io_failure, bad_file with file and line.
+Result<ImageList> read_image_list(const std::filesystem::path& path);
+
 /// Finds the images as open_frames describes. Errors: not_found, bad_file, invalid_argument.
 Result<FrameLayout> find_frames(const std::vector<std::filesystem::path>& inputs);
 

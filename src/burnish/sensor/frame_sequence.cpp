@@ -5,122 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "burnish/sensor/camera_file.h"
 #include "burnish/sensor/frame_layout.h"
-#include "burnish/sensor/pose_list.h"
 
 namespace burnish {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kLargestTimeGap =
-    0.02;  ///< s between an image and its pose, as TUM's own tool has it
-constexpr double kTumDepthScale = 1.0 / 5000;
 constexpr float kSaturated = 65535;  ///< what cameras write for "too far" or "unknown"
-
-std::vector<FrameFile> files_of(const FrameLayout& layout) {
-  std::vector<FrameFile> files;
-  for (std::size_t i = 0; i < layout.images.size(); ++i) {
-    files.push_back({layout.images[i], std::nullopt, layout.times.empty() ? 0 : layout.times[i]});
-  }
-  return files;
-}
-
-/// NAME.pose.txt for NAME.depth.png; empty for other names.
-fs::path pose_file_of(const fs::path& image) {
-  const fs::path name = image.stem();
-  if (name.extension() != ".depth") return {};
-  return image.parent_path() / (name.stem().string() + ".pose.txt");
-}
-
-/// Gives every file the pose beside it; false where not even the first has one.
-Result<bool> read_poses_beside(std::vector<FrameFile>& files) {
-  std::error_code ignored;
-  const fs::path first = pose_file_of(files.front().image);
-  if (first.empty() || !fs::exists(first, ignored)) return false;
-  for (FrameFile& file : files) {
-    const fs::path path = pose_file_of(file.image);
-    if (path.empty()) {
-      return Error{ErrorCode::invalid_argument,
-                   "the first image has a pose file beside it, this one is not called NAME.depth.*",
-                   file.image.string()};
-    }
-    const auto pose = read_pose_matrix(path);
-    if (!pose) return pose.error();
-    file.T_world_camera = *pose;
-  }
-  return true;
-}
-
-Result<void> assign_in_order(const PoseList& list, const fs::path& path,
-                             std::vector<FrameFile>& files) {
-  if (list.poses.size() != files.size()) {
-    return Error{ErrorCode::invalid_argument,
-                 fmt::format("{} poses for {} depth images, as many as images are expected",
-                             list.poses.size(), files.size()),
-                 path.string()};
-  }
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    files[i].T_world_camera = list.poses[i];
-    if (!list.times.empty()) files[i].time = list.times[i];
-  }
-  return {};
-}
-
-/// Gives every image the pose nearest in time, and drops images that have none near enough.
-Result<void> assign_by_time(const PoseList& list, const fs::path& path,
-                            std::vector<FrameFile>& files, std::vector<std::string>& notes) {
-  std::vector<std::size_t> order(list.times.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return list.times[a] < list.times[b]; });
-  const auto gap = [&](std::size_t pose, double time) { return std::abs(list.times[pose] - time); };
-  for (FrameFile& file : files) {
-    const auto after =
-        std::lower_bound(order.begin(), order.end(), file.time,
-                         [&](std::size_t pose, double time) { return list.times[pose] < time; });
-    auto nearest = after == order.end() ? after - 1 : after;
-    if (after != order.begin() && gap(*(after - 1), file.time) <= gap(*nearest, file.time)) {
-      nearest = after - 1;
-    }
-    if (gap(*nearest, file.time) <= kLargestTimeGap) file.T_world_camera = list.poses[*nearest];
-  }
-  const std::size_t all = files.size();
-  std::erase_if(files, [](const FrameFile& file) { return !file.T_world_camera; });
-  if (files.empty()) {
-    return Error{ErrorCode::bad_file,
-                 fmt::format("none of its {} poses is within {} s of one of the {} depth images",
-                             list.poses.size(), kLargestTimeGap, all),
-                 path.string()};
-  }
-  if (files.size() < all) {
-    notes.push_back(fmt::format("{} of {} depth images have no pose within {} s and are left out",
-                                all - files.size(), all, kLargestTimeGap));
-  }
-  return {};
-}
-
-/// Fills in the poses of `files`; false where there are none to be found.
-Result<bool> find_poses(const FrameLayout& layout, const fs::path& given,
-                        std::vector<FrameFile>& files, std::vector<std::string>& notes) {
-  fs::path path = given;
-  if (path.empty()) {
-    const auto beside = read_poses_beside(files);
-    if (!beside || *beside) return beside;
-    if (!layout.whole_folder) return false;
-    path = find_pose_list(layout.folders).value_or("");
-    if (path.empty()) return false;
-  }
-  const auto list = read_pose_list(path);
-  if (!list) return list.error();
-  const bool timed = !list->times.empty() && !layout.times.empty();
-  const auto assigned =
-      timed ? assign_by_time(*list, path, files, notes) : assign_in_order(*list, path, files);
-  if (!assigned) return assigned.error();
-  return true;
-}
 
 /// The preset that frames of this size most likely come from.
 std::optional<Sensor> sensor_for_size(std::uint32_t width, std::uint32_t height) {
@@ -204,6 +97,15 @@ Result<DepthFrame> FrameSequence::read(std::size_t i) const {
   return frame;
 }
 
+FrameSequence FrameSequence::with_poses(
+    std::span<const std::optional<RigidTransform>> T_world_camera) const {
+  FrameSequence posed = *this;
+  for (std::size_t i = 0; i < size(); ++i) posed.files_[i].T_world_camera = T_world_camera[i];
+  std::erase_if(posed.files_, [](const FrameFile& file) { return !file.T_world_camera; });
+  posed.has_poses_ = true;
+  return posed;
+}
+
 Result<FrameSequence> open_frames(const std::vector<fs::path>& inputs,
                                   const FrameOptions& options) {
   if (options.depth_scale && !(*options.depth_scale > 0 && std::isfinite(*options.depth_scale))) {
@@ -216,7 +118,8 @@ Result<FrameSequence> open_frames(const std::vector<fs::path>& inputs,
   if (!layout) return layout.error();
   FrameSequence sequence;
   sequence.files_ = files_of(*layout);
-  const auto posed = find_poses(*layout, options.poses, sequence.files_, sequence.notes_);
+  const auto posed =
+      find_poses(*layout, options.poses, kTimeWindow, sequence.files_, sequence.notes_);
   if (!posed) return posed.error();
   sequence.has_poses_ = *posed;
 

@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "burnish/base/result.h"
 #include "burnish/core/depth_frame.h"
 #include "burnish/io/depth_image.h"
+#include "burnish/sensor/frame_poses.h"
 #include "burnish/sensor/presets.h"
 
 namespace burnish {
@@ -18,13 +20,6 @@ struct FrameOptions {
   std::optional<Camera> camera{};  ///< width and height 0: those of the frames
   std::string sensor{};            ///< a name for find_sensor: noise, range, camera of last resort
   std::optional<double> depth_scale{};  ///< metres per unit of the images
-};
-
-/// A depth image on disk and what is known of it.
-struct FrameFile {
-  std::filesystem::path image;
-  std::optional<RigidTransform> T_world_camera;
-  double time = 0;  ///< s
 };
 
 /// Depth frames that lie in files and are read one at a time. Cheap to copy; read() may be called
@@ -45,6 +40,9 @@ class FrameSequence {
   /// sensor's range become 0, "no depth". Frames without a pose stand at the origin. Errors: those
   /// of read_depth_image, bad_file where the image has not the camera's size; they name the file.
   Result<DepthFrame> read(std::size_t i) const;
+
+  /// The frames that have a pose in `T_world_camera` (size() of them), with these poses.
+  FrameSequence with_poses(std::span<const std::optional<RigidTransform>> T_world_camera) const;
 
  private:
   friend Result<FrameSequence> open_frames(const std::vector<std::filesystem::path>&,

@@ -16,10 +16,9 @@ constexpr double kMatrixTolerance = 1e-3;
 constexpr std::size_t kShownLength = 40;  ///< of a word that is not what it should be
 constexpr TextStyle kStyle{.blanks = " \t,", .comment = '#'};
 
-/// The numbers of the next line that has any; none at the end of the file.
-Result<std::vector<double>> next_numbers(Cursor& cursor) {
+/// The numbers on the rest of the line.
+Result<std::vector<double>> numbers_on_line(Cursor& cursor) {
   std::vector<double> numbers;
-  if (!cursor.next_filled_line()) return numbers;
   while (!cursor.at_line_end()) {
     double value = 0;
     if (!cursor.number(value)) {
@@ -30,6 +29,19 @@ Result<std::vector<double>> next_numbers(Cursor& cursor) {
     numbers.push_back(value);
   }
   return numbers;
+}
+
+/// The numbers of the next line that has any; none at the end of the file.
+Result<std::vector<double>> next_numbers(Cursor& cursor) {
+  return cursor.next_filled_line() ? numbers_on_line(cursor) : std::vector<double>{};
+}
+
+/// Passes a line `-`.
+bool is_unknown(Cursor& cursor) {
+  Cursor ahead = cursor;
+  if (ahead.word() != "-" || !ahead.at_line_end()) return false;
+  cursor = ahead;
+  return true;
 }
 
 Error wrong_count(const Cursor& cursor, std::size_t count, std::string_view expected) {
@@ -91,16 +103,38 @@ Result<void> append_quaternion_line(const Cursor& cursor, const std::vector<doub
 
 }  // namespace
 
+std::string pose_list_text(std::span<const std::optional<RigidTransform>> poses,
+                           std::span<const std::string> comments) {
+  std::string text;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (poses[i]) {
+      const auto [qx, qy, qz, qw] = quaternion(*poses[i]);
+      const Vec3d& t = poses[i]->translation;
+      text += fmt::format("{} {} {} {} {} {} {}", t.x, t.y, t.z, qx, qy, qz, qw);
+    } else {
+      text += "-";
+    }
+    if (i < comments.size() && !comments[i].empty()) text += "  # " + comments[i];
+    text += "\n";
+  }
+  return text;
+}
+
 Result<PoseList> read_pose_list(const std::filesystem::path& path) {
   const auto file = read_file(path);
   if (!file) return file.error();
   Cursor cursor(file->text(), path.string(), kStyle);
   PoseList list;
   std::size_t columns = 0;
-  for (;;) {
-    const auto numbers = next_numbers(cursor);
+  while (cursor.next_filled_line()) {
+    if (is_unknown(cursor)) {
+      list.unknown.resize(list.poses.size(), false);
+      list.unknown.push_back(true);
+      list.poses.emplace_back();
+      continue;
+    }
+    const auto numbers = numbers_on_line(cursor);
     if (!numbers) return numbers.error();
-    if (numbers->empty()) break;
     if (columns == 0) columns = numbers->size();
     if (columns == 7 || columns == 8) {
       if (auto line = append_quaternion_line(cursor, *numbers, columns, list); !line) {
@@ -117,6 +151,13 @@ Result<PoseList> read_pose_list(const std::filesystem::path& path) {
     }
   }
   if (columns == 0) return Error{ErrorCode::bad_file, "there is no pose in it", path.string()};
+  if (!list.unknown.empty()) {
+    if (columns != 7) {
+      return Error{ErrorCode::bad_file, "only in lists of x y z qx qy qz qw can a pose be unknown",
+                   path.string()};
+    }
+    list.unknown.resize(list.poses.size(), false);
+  }
   list.format = columns == 7   ? "position and quaternion"
                 : columns == 8 ? "TUM trajectory"
                                : "Redwood trajectory";

@@ -1,7 +1,11 @@
 #include "burnish/sensor/staging_folder.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
 #include <utility>
-#include <vector>
 
 namespace burnish {
 namespace fs = std::filesystem;
@@ -23,7 +27,7 @@ bool holds_nothing(const fs::path& folder, std::error_code& reason) {
   return true;
 }
 
-Result<void> remove_frames(const fs::path& folder) {
+Result<void> remove_frames(const fs::path& folder, const std::vector<std::string>& lists) {
   std::error_code reason;
   std::vector<fs::path> frames;
   for (fs::directory_iterator entry(folder, reason), end; !reason && entry != end;
@@ -32,6 +36,23 @@ Result<void> remove_frames(const fs::path& folder) {
   }
   for (const fs::path& frame : frames) {
     if (!reason) fs::remove(frame, reason);
+  }
+  for (const std::string& list : lists) {
+    if (!reason) fs::remove(folder / list, reason);
+  }
+  if (reason) return failed(folder, reason);
+  return {};
+}
+
+/// Flushes the files of a folder to the disk. Together they take a fraction of the time that each
+/// would right after it was written: most are there by then.
+Result<void> flush_files(const fs::path& folder) {
+  std::error_code reason;
+  for (fs::directory_iterator entry(folder, reason), end; !reason && entry != end;
+       entry.increment(reason)) {
+    const int file = ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0 || ::fsync(file) != 0) reason.assign(errno, std::generic_category());
+    if (file >= 0) ::close(file);
   }
   if (reason) return failed(folder, reason);
   return {};
@@ -54,10 +75,12 @@ Result<void> move_files(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-Result<StagingFolder> StagingFolder::create(const fs::path& folder, const std::string& mark) {
+Result<StagingFolder> StagingFolder::create(const fs::path& folder, const std::string& mark,
+                                            std::vector<std::string> lists) {
   std::error_code reason;
   StagingFolder staging;
   staging.folder_ = folder;
+  staging.lists_ = std::move(lists);
   const bool exists = fs::exists(folder, reason);
   if (exists && !fs::is_directory(folder, reason)) {
     return Error{ErrorCode::invalid_argument, "it is a file, a folder is expected",
@@ -80,6 +103,7 @@ Result<StagingFolder> StagingFolder::create(const fs::path& folder, const std::s
 StagingFolder::StagingFolder(StagingFolder&& other) noexcept
     : folder_(std::move(other.folder_)),
       staged_(std::exchange(other.staged_, {})),
+      lists_(std::move(other.lists_)),
       made_(std::exchange(other.made_, false)) {}
 
 StagingFolder::~StagingFolder() {
@@ -88,10 +112,22 @@ StagingFolder::~StagingFolder() {
   if (made_) fs::remove(folder_, ignored);  // does nothing unless it is empty
 }
 
+Result<void> StagingFolder::write(const std::string& name, std::string_view bytes) {
+  errno = 0;
+  std::ofstream file(staged_ / name, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (file) return {};
+  return failed(folder_ / name, std::error_code(errno ? errno : EIO, std::generic_category()));
+}
+
 Result<void> StagingFolder::commit() {
-  if (auto removed = remove_frames(folder_); !removed) return removed;
+  if (auto flushed = flush_files(staged_); !flushed) return flushed;
+  if (auto removed = remove_frames(folder_, lists_); !removed) return removed;
   if (auto moved = move_files(staged_, folder_); !moved) return moved;
   made_ = false;
+  std::error_code ignored;
+  if (fs::is_empty(staged_ / kTruth, ignored)) return {};
   return move_files(staged_ / kTruth, folder_ / kTruth);
 }
 

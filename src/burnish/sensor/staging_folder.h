@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "burnish/base/result.h"
 
@@ -12,9 +14,10 @@ namespace burnish {
 class StagingFolder {
  public:
   /// Makes `folder` where there is none. One that is not empty must hold a file `mark`, which says
-  /// that its frames were written by the same program and may be replaced. Errors:
-  /// invalid_argument, io_failure; they name the folder.
-  static Result<StagingFolder> create(const std::filesystem::path& folder, const std::string& mark);
+  /// that its frames were written by the same program and may be replaced, and with them the files
+  /// `lists`, which tell of them. Errors: invalid_argument, io_failure; they name the folder.
+  static Result<StagingFolder> create(const std::filesystem::path& folder, const std::string& mark,
+                                      std::vector<std::string> lists = {});
 
   StagingFolder(StagingFolder&& other) noexcept;
   StagingFolder& operator=(StagingFolder&&) = delete;
@@ -23,8 +26,12 @@ class StagingFolder {
   /// Where to write; has a subfolder `truth`.
   const std::filesystem::path& path() const { return staged_; }
 
-  /// Removes the frames of an earlier recording (frame-*), moves the new files up. Files of other
-  /// names stay or are replaced by their namesakes.
+  /// Writes a file there, which is on the disk only once commit() has flushed all of them. Errors:
+  /// io_failure.
+  Result<void> write(const std::string& name, std::string_view bytes);
+
+  /// Flushes the new files, removes the frames of an earlier recording (frame-*) and its lists,
+  /// moves the new files up. Files of other names stay or are replaced by their namesakes.
   Result<void> commit();
 
  private:
@@ -32,7 +39,8 @@ class StagingFolder {
 
   std::filesystem::path folder_;
   std::filesystem::path staged_;  ///< empty once committed or moved from
-  bool made_ = false;             ///< whether create() made the folder
+  std::vector<std::string> lists_;
+  bool made_ = false;  ///< whether create() made the folder
 };
 
 }  // namespace burnish
