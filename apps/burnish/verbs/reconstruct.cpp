@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "../frame_options.h"
+#include "../registration_options.h"
 #include "../report_output.h"
 #include "../summary.h"
 #include "../verb.h"
@@ -16,6 +17,7 @@ struct Options {
   std::string output, truth, crop, smooth_region, bound;
   ReportOutput report;
   FrameTexts frames;
+  RegistrationTexts registration;
   int frames_at_once = FrameSteps{}.frames_at_once;
   std::vector<std::string> average, filter, clean, merge, clean_merged, triangulate, repair, smooth,
       simplify;
@@ -78,7 +80,10 @@ Result<void> run(const Options& options, const Session& session, const Context& 
   if (!recipe) return recipe.error();
   Result<FrameOptions> frames = read_frame_texts(options.frames);
   if (!frames) return std::move(frames).error();
-  ScanInputs inputs{{options.inputs.begin(), options.inputs.end()}, *std::move(frames)};
+  const auto registration = read_registration_texts(options.registration);
+  if (!registration) return registration.error();
+  ScanInputs inputs{
+      {options.inputs.begin(), options.inputs.end()}, *std::move(frames), *registration};
   ReconstructOptions how;
   if (!options.truth.empty()) how.truth = options.truth;
   how.keep_phases = options.report.wanted();
@@ -115,6 +120,7 @@ Action add_reconstruct(CLI::App& app) {
   verb->add_option("--truth", options->truth,
                    "a mesh of the true surface, to compare points and phases with");
   add_frame_options(verb, options->frames);
+  add_registration_options(verb, options->registration);
   verb->add_option(
       "--crop", options->crop,
       "keep only what lies in box:x0,y0,z0,x1,y1,z1 or sphere:x,y,z,radius (world, m)");
@@ -148,9 +154,10 @@ Action add_reconstruct(CLI::App& app) {
       "numbered\n"
       "images with a list of poses (x y z qx qy qz qw; TUM: timestamp first; Redwood "
       "trajectory.log);\n"
-      "organized PCD. One scan needs no pose.\n"
+      "organized PCD. Frames without poses are registered first, as burnish register does.\n"
       "Examples:\n"
       "  burnish reconstruct scan/ -o model.ply --report report.html\n"
+      "  burnish reconstruct shots/ -o cup.ply --turntable --farthest 1.1m\n"
       "  burnish reconstruct depth.png --sensor kinect_v1 -o person.ply --smooth "
       "nearest_farthest:iterations=3\n"
       "  burnish reconstruct still/ -o desk.ply --sensor primesense --average temporal_mean "

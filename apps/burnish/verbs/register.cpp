@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "../frame_options.h"
+#include "../registration_options.h"
 #include "../summary.h"
 #include "../verb.h"
-#include "burnish/base/quantity.h"
 #include "burnish/io/atomic_writer.h"
 #include "burnish/pipeline/registered_frames.h"
 #include "burnish/sensor/pose_list.h"
@@ -17,39 +17,14 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> inputs;
-  std::string folder, angle, nearest, farthest;
+  std::string folder;
   FrameTexts frames;
-  bool turntable = false, sequence = false, open = false;
+  RegistrationTexts registration;
 };
-
-Result<FrameRegistration> registration_of(const Options& options) {
-  FrameRegistration registration;
-  const auto read = [](const std::string& text, Quantity quantity, const char* option,
-                       double& value) -> Result<void> {
-    if (text.empty()) return {};
-    const Result<double> number = parse_quantity(text, quantity);
-    if (!number) return Error{number.error().code, number.error().message, option};
-    value = *number;
-    return {};
-  };
-  for (const auto& done :
-       {read(options.angle, Quantity::angle, "--angle", registration.turntable.step),
-        read(options.nearest, Quantity::length, "--nearest", registration.nearest),
-        read(options.farthest, Quantity::length, "--farthest", registration.farthest)}) {
-    if (!done) return done.error();
-  }
-  if (!options.turntable && (!options.angle.empty() || options.open)) {
-    return Error{ErrorCode::invalid_argument, "belongs to --turntable",
-                 options.open ? "--open" : "--angle"};
-  }
-  if (options.turntable) registration.scene = FrameRegistration::Scene::turntable;
-  registration.turntable.closed = !options.open;
-  return registration;
-}
 
 Result<void> register_files(const Options& options, const Session& session,
                             const Context& context) {
-  const Result<FrameRegistration> registration = registration_of(options);
+  const Result<FrameRegistration> registration = read_registration_texts(options.registration);
   if (!registration) return registration.error();
   const Result<FrameOptions> said = read_frame_texts(options.frames);
   if (!said) return said.error();
@@ -98,18 +73,7 @@ Action add_register(CLI::App& app) {
                    "the folder for poses.txt and registration.json; may be the frames' own")
       ->required();
   add_camera_options(verb, options->frames);
-  auto* table = verb->add_flag("--turntable", options->turntable,
-                               "an object turned before a camera that stands still");
-  verb->add_flag("--sequence", options->sequence,
-                 "a camera carried along, frame after frame; the default")
-      ->excludes(table);
-  verb->add_option("--angle", options->angle,
-                   "of the table from frame to frame, about; default: a full turn by the number of "
-                   "frames");
-  verb->add_flag("--open", options->open, "the table did not come round to the first frame again");
-  verb->add_option("--nearest", options->nearest, "depths below are not looked at");
-  verb->add_option("--farthest", options->farthest,
-                   "depths beyond are not looked at: what stands behind a turntable");
+  add_registration_options(verb, options->registration);
   verb->footer(
       "A frame that fits no other with certainty has no pose: poses.txt says - and why, and "
       "reconstruct "

@@ -198,14 +198,15 @@ Result<Reconstruction> reconstruct(const ScanInputs& inputs, const Recipe& recip
                                    const Context& context) {
   if (auto sound = check(recipe); !sound) return sound.error();
   const Result<std::unique_ptr<Scans>> scans =
-      open_scans(inputs, recipe.frames, options.truth.has_value());
+      open_scans(inputs, recipe.frames, options.truth.has_value(), context.part(0, 0.1));
   if (!scans) return scans.error();
-  Result<Judge> judge = Judge::of(options.truth, context.part(0, 0.02));
+  Result<Judge> judge = Judge::of(options.truth, context.part(0.1, 0.12));
   if (!judge) return std::move(judge).error();
   record.notes.insert(record.notes.end(), (*scans)->notes().begin(), (*scans)->notes().end());
+  record.steps.insert(record.steps.end(), (*scans)->steps().begin(), (*scans)->steps().end());
 
   Result<std::vector<PointCloud>> clouds =
-      read_scans(**scans, recipe, *judge, record, context.part(0.02, 0.3));
+      read_scans(**scans, recipe, *judge, record, context.part(0.12, 0.3));
   if (!clouds) return std::move(clouds).error();
   if (clouds->front().grid) record.viewpoint = (*scans)->viewpoint();
   const Result<PointCloud> cloud =

@@ -24,9 +24,8 @@ namespace fs = std::filesystem;
 Error no_poses(std::size_t count) {
   return {ErrorCode::invalid_argument,
           fmt::format(
-              "{} scans and no poses: give --poses FILE, a line `x y z qx qy qz qw` (camera to "
-              "world) for each of them, or a Redwood trajectory.log or TUM trajectory; or "
-              "--average temporal_mean where they are depth frames of a camera that stood still",
+              "{} clouds and no poses: give --poses FILE, a line `x y z qx qy qz qw` (camera to "
+              "world) for each of them, or a Redwood trajectory.log or TUM trajectory",
               count),
           {}};
 }
@@ -34,14 +33,16 @@ Error no_poses(std::size_t count) {
 /// Depth images, seen through their camera.
 class FrameScans : public Scans {
  public:
-  FrameScans(FrameSequence frames, FrameSteps steps, bool keep_raw)
-      : frames_(std::move(frames)), steps_(std::move(steps)), keep_raw_(keep_raw) {
+  FrameScans(FrameSequence frames, FrameSteps steps, bool keep_raw, Record opening)
+      : frames_(std::move(frames)), frame_steps_(std::move(steps)), keep_raw_(keep_raw) {
     notes_ = frames_.notes();
+    notes_.insert(notes_.end(), opening.notes.begin(), opening.notes.end());
+    steps_ = std::move(opening.steps);
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (i == 0 || !belongs_to_last(i)) groups_.push_back({i, i});
       ++groups_.back().end;
     }
-    if (!steps_.average || frames_.size() == 1) return;
+    if (!frame_steps_.average || frames_.size() == 1) return;
     if (!frames_.has_poses()) {
       notes_.push_back(fmt::format("{} frames without poses are averaged as seen from one place",
                                    frames_.size()));
@@ -57,7 +58,7 @@ class FrameScans : public Scans {
     Result<DepthFrame> frame = read_frame(groups_[i], scan, context.part(0, 0.5));
     if (!frame) return std::move(frame).error();
     Record record;
-    if (auto filtered = filter_frame(*frame, steps_.filter, record, context.part(0.5, 0.7));
+    if (auto filtered = filter_frame(*frame, frame_steps_.filter, record, context.part(0.5, 0.7));
         !filtered) {
       return filtered.error();
     }
@@ -78,7 +79,8 @@ class FrameScans : public Scans {
   bool belongs_to_last(std::size_t i) const {
     const std::vector<FrameFile>& files = frames_.files();
     const IndexRange& group = groups_.back();
-    return steps_.average && group.end - group.begin < std::size_t(steps_.frames_at_once) &&
+    return frame_steps_.average &&
+           group.end - group.begin < std::size_t(frame_steps_.frames_at_once) &&
            files[i].T_world_camera == files[i - 1].T_world_camera;
   }
 
@@ -91,12 +93,12 @@ class FrameScans : public Scans {
       if (!frame) return frame;
       frames.push_back(*std::move(frame));
     }
-    if (keep_raw_ && (steps_.average || !steps_.filter.empty())) {
+    if (keep_raw_ && (frame_steps_.average || !frame_steps_.filter.empty())) {
       if (auto kept = keep_raw(frames, scan); !kept) return kept.error();
     }
-    if (!steps_.average) return std::move(frames.front());
+    if (!frame_steps_.average) return std::move(frames.front());
     Record record;
-    auto mean = average_frames(frames, *steps_.average, record, context);
+    auto mean = average_frames(frames, *frame_steps_.average, record, context);
     scan.steps = std::move(record.steps);
     return mean;
   }
@@ -114,7 +116,7 @@ class FrameScans : public Scans {
   }
 
   FrameSequence frames_;
-  FrameSteps steps_;
+  FrameSteps frame_steps_;
   bool keep_raw_;
   std::vector<IndexRange> groups_;  ///< the frames of each scan
 };
@@ -216,13 +218,17 @@ Result<std::unique_ptr<Scans>> open_clouds(const ScanInputs& inputs, const Frame
 }
 
 Result<std::unique_ptr<Scans>> open_images(const ScanInputs& inputs, const FrameSteps& steps,
-                                           bool keep_raw) {
+                                           bool keep_raw, const Context& context) {
   Result<FrameSequence> frames = open_frames(inputs.paths, inputs.frames);
   if (!frames) return std::move(frames).error();
+  Record opening;
   if (frames->size() > 1 && !frames->has_poses() && !steps.average) {
-    return no_poses(frames->size());
+    const auto found = register_frames(*frames, inputs.registration, opening, context);
+    if (!found) return found.error();
+    *frames = frames->with_poses(found->poses.T_world_view);
   }
-  return std::unique_ptr<Scans>(std::make_unique<FrameScans>(*std::move(frames), steps, keep_raw));
+  return std::unique_ptr<Scans>(
+      std::make_unique<FrameScans>(*std::move(frames), steps, keep_raw, std::move(opening)));
 }
 
 bool is_folder(const fs::path& path) {
@@ -274,7 +280,7 @@ bool is_image_or_folder(const fs::path& path) {
 }  // namespace
 
 Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& given, const FrameSteps& steps,
-                                          bool keep_raw) {
+                                          bool keep_raw, const Context& context) {
   if (given.paths.empty())
     return Error{ErrorCode::invalid_argument, "nothing to reconstruct from", {}};
   for (const fs::path& path : given.paths) {
@@ -282,7 +288,8 @@ Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& given, const FrameSt
     if (!fs::exists(path, unreadable))
       return Error{ErrorCode::not_found, "no such file or folder", path.string()};
   }
-  ScanInputs inputs{unfolded(given.paths), given.frames};
+  ScanInputs inputs = given;
+  inputs.paths = unfolded(given.paths);
   const bool images = is_image_or_folder(inputs.paths.front());
   const bool one_folder = given.paths.size() == 1 && is_folder(given.paths.front());
   if (!images && one_folder && inputs.frames.poses.empty())
@@ -293,7 +300,7 @@ Result<std::unique_ptr<Scans>> open_scans(const ScanInputs& given, const FrameSt
                    path.string()};
     }
   }
-  return images ? open_images(inputs, steps, keep_raw) : open_clouds(inputs, steps);
+  return images ? open_images(inputs, steps, keep_raw, context) : open_clouds(inputs, steps);
 }
 
 }  // namespace burnish

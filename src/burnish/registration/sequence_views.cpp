@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "burnish/registration/global_start.h"
+
 namespace burnish {
 namespace {
 
@@ -70,19 +72,18 @@ class Sequence {
       auto pair =
           lay(trial.target, i, T_world_view_[trial.target].inverse() * trial.T_world_view, context);
       if (!pair) return pair.error();
-      if (!pair->accepted()) continue;
-      T_world_view_[i] = T_world_view_[trial.target] * pair->T_target_source;
-      const bool far = trial.target != key || pair->overlap < params_.key_overlap;
-      poses_.pairs.push_back({trial.target, i, *std::move(pair)});
-      return far ? add_key(i, context) : Result<void>();
+      if (pair->accepted()) return place(i, trial.target, *std::move(pair), context);
     }
+    auto pair = lay_anyhow(key, i, context);
+    if (!pair) return pair.error();
+    if (pair->accepted()) return place(i, key, *std::move(pair), context);
     T_world_view_[i] = moved_on;
     return add_key(i, context);
   }
 
   /// Lays key views on each other that should see the same.
   Result<void> close_loops(const Context& context) {
-    constexpr double kShared = 0.5;
+    constexpr double kShared = 0.3;
     for (std::size_t b = 1; b < keys_.size(); ++b) {
       for (std::size_t a = 0; a < b; ++a) {
         const std::uint32_t target = keys_[a].view, source = keys_[b].view;
@@ -116,6 +117,15 @@ class Sequence {
     Glimpse glimpse;
   };
 
+  /// View `i` is where an accepted pair has it.
+  Result<void> place(std::uint32_t i, std::uint32_t target, PairRegistration pair,
+                     const Context& context) {
+    T_world_view_[i] = T_world_view_[target] * pair.T_target_source;
+    const bool far = target != keys_.back().view || pair.overlap < params_.key_overlap;
+    poses_.pairs.push_back({target, i, std::move(pair)});
+    return far ? add_key(i, context) : Result<void>();
+  }
+
   Result<void> add_key(std::uint32_t i, const Context& context) {
     const auto view = cache_.at(i, context);
     if (!view) return view.error();
@@ -129,13 +139,31 @@ class Sequence {
 
   Result<PairRegistration> lay(std::uint32_t target, std::uint32_t source,
                                const RigidTransform& guess, const Context& context) {
+    return with_both(target, source, context,
+                     [&](const SurfaceView& to, const SurfaceView& from, const Context& quiet) {
+                       return register_projective(from, to, guess, params_.pairs, quiet);
+                     });
+  }
+
+  /// Without a guess.
+  Result<PairRegistration> lay_anyhow(std::uint32_t target, std::uint32_t source,
+                                      const Context& context) {
+    return with_both(target, source, context,
+                     [&](const SurfaceView& to, const SurfaceView& from, const Context& quiet) {
+                       return register_views_globally(from, to, {}, params_.pairs, quiet);
+                     });
+  }
+
+  template <class Lay>
+  Result<PairRegistration> with_both(std::uint32_t target, std::uint32_t source,
+                                     const Context& context, Lay lay) {
     Context quiet = context;
     quiet.sink = nullptr;
     const auto target_view = cache_.at(target, quiet);
     if (!target_view) return target_view.error();
     const auto source_view = cache_.at(source, quiet);
     if (!source_view) return source_view.error();
-    return register_projective(**source_view, **target_view, guess, params_.pairs, quiet);
+    return lay(**target_view, **source_view, quiet);
   }
 
   bool is_laid(std::uint32_t target, std::uint32_t source) const {
@@ -182,7 +210,7 @@ Result<ViewPoses> register_sequence(const ViewSource& views, const SequenceViews
     context.progress(0.8 * double(i) / double(views.count));
     if (auto done = sequence.track(i, context); !done) return done.error();
   }
-  const PlacementLimits limits{params.max_deviation, params.pairs.acceptance.max_deviation};
+  const PlacementLimits limits{.max_deviation = params.max_deviation};
   // Loops are looked for where the poses say they are: once more when some have been closed.
   for (const double end : {0.9, 1.0}) {
     FreePoses model(sequence.T_world_view());

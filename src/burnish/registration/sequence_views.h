@@ -7,9 +7,9 @@
 namespace burnish {
 
 struct SequenceViewsParams {
-  double key_overlap = 0.6;  ///< a view that shares less with its key view becomes one itself
-  int recalled = 8;          ///< key views that one which fits nowhere is tried on
-  double max_deviation = 4;  ///< a pair farther from what the others say is left out
+  double key_overlap = 0.75;  ///< a view that shares less with its key view becomes one itself
+  int recalled = 8;           ///< key views that one which fits nowhere is tried on
+  double max_deviation = 4;   ///< a pair farther from what the others say is left out
   ProjectiveParams pairs;
 
   static const Schema<SequenceViewsParams>& schema();

@@ -103,7 +103,11 @@ std::vector<std::size_t> rings_of(std::size_t views, double step) {
 class Turntable {
  public:
   Turntable(const ViewSource& views, const TurntableViewsParams& params, ViewPoses& poses)
-      : cache_(views, 4), count_(views.count), params_(params), poses_(poses) {
+      : cache_(views, 4),
+        count_(views.count),
+        params_(params),
+        limits_{params.max_deviation, params.pairs.acceptance.max_deviation, true},
+        poses_(poses) {
     step_ = params.step > 0 ? params.step : 2 * std::numbers::pi / double(count_);
   }
 
@@ -136,6 +140,7 @@ class Turntable {
   }
 
   double step() const { return step_; }
+  const PlacementLimits& limits() const { return limits_; }
 
  private:
   Result<std::optional<Turn>> axis_from(std::size_t first, const Context& context) {
@@ -172,7 +177,8 @@ class Turntable {
 
   bool counts(std::size_t target, std::size_t source) const {
     return std::any_of(poses_.pairs.begin(), poses_.pairs.end(), [&](const RegisteredPair& pair) {
-      return pair.target == target && pair.source == source && counts_for_poses(pair.registration);
+      return pair.target == target && pair.source == source &&
+             counts_for_poses(pair.registration, limits_);
     });
   }
 
@@ -187,6 +193,7 @@ class Turntable {
   ViewCache cache_;
   std::size_t count_;
   const TurntableViewsParams& params_;
+  PlacementLimits limits_;
   ViewPoses& poses_;
   double step_;
 };
@@ -242,7 +249,6 @@ Result<TurntableViews> register_turntable(const ViewSource& views,
   for (std::size_t i = 0; i < angles.size(); ++i) angles[i] = step * double(i);
   TurntablePoses model((*first)->axis.T_world_camera(), std::move(angles));
 
-  const PlacementLimits limits{params.max_deviation, params.pairs.acceptance.max_deviation};
   const std::vector<std::size_t> rings = rings_of(views.count, table.step());
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const auto share = [&](std::size_t k) { return 0.2 + 0.8 * double(k) / double(rings.size()); };
@@ -250,7 +256,7 @@ Result<TurntableViews> register_turntable(const ViewSource& views,
         !done) {
       return done.error();
     }
-    if (auto done = place_views(model, limits, result.poses, context); !done) {
+    if (auto done = place_views(model, table.limits(), result.poses, context); !done) {
       return done.error();
     }
   }

@@ -27,21 +27,23 @@ std::vector<bool> largest_set(std::size_t views, const std::vector<PoseConstrain
 }
 
 /// The pairs that count as constraints.
-std::vector<PoseConstraint> constraints_of(const std::vector<RegisteredPair>& pairs) {
+std::vector<PoseConstraint> constraints_of(const std::vector<RegisteredPair>& pairs,
+                                           const PlacementLimits& limits) {
   std::vector<PoseConstraint> constraints;
   for (const auto& [target, source, registration] : pairs) {
-    if (!counts_for_poses(registration)) continue;
+    if (!counts_for_poses(registration, limits)) continue;
     constraints.push_back({target, source, registration.T_target_source, registration.information});
   }
   return constraints;
 }
 
 /// Per view the middle of what a pair that counts has matched, in the view's axes.
-std::vector<Vec3d> middles_of(std::size_t views, const std::vector<RegisteredPair>& pairs) {
+std::vector<Vec3d> middles_of(std::size_t views, const std::vector<RegisteredPair>& pairs,
+                              const PlacementLimits& limits) {
   std::vector<Vec3d> middles(views);
   for (auto pair = pairs.rbegin(); pair != pairs.rend(); ++pair) {
     const PairRegistration& registration = pair->registration;
-    if (!counts_for_poses(registration)) continue;
+    if (!counts_for_poses(registration, limits)) continue;
     middles[pair->target] = registration.centre;
     middles[pair->source] = registration.T_target_source.inverse()(registration.centre);
   }
@@ -82,7 +84,8 @@ Result<const SurfaceView*> ViewCache::at(std::size_t view, const Context& contex
   return &std::as_const(entries_.back()->pixels);
 }
 
-bool counts_for_poses(const PairRegistration& pair) {
+bool counts_for_poses(const PairRegistration& pair, const PlacementLimits& limits) {
+  if (!limits.open_directions) return pair.accepted();
   return pair.matched > 0 &&
          std::all_of(pair.refusals.begin(), pair.refusals.end(), [](Refusal refusal) {
            return refusal == Refusal::not_held || refusal == Refusal::not_converged;
@@ -91,7 +94,7 @@ bool counts_for_poses(const PairRegistration& pair) {
 
 Result<void> place_views(PoseModel& model, const PlacementLimits& limits, ViewPoses& poses,
                          const Context& context) {
-  const std::vector<PoseConstraint> constraints = constraints_of(poses.pairs);
+  const std::vector<PoseConstraint> constraints = constraints_of(poses.pairs, limits);
   Result<PoseFit> fit = fit_poses(model, constraints, limits.max_deviation, context);
   if (!fit) return std::move(fit).error();
   poses.fit = *std::move(fit);
@@ -108,7 +111,7 @@ Result<void> place_views(PoseModel& model, const PlacementLimits& limits, ViewPo
   const auto covariances =
       pose_covariances(model, constraints, poses.fit.contradicted, first, context);
   if (!covariances) return covariances.error();
-  const std::vector<Vec3d> middles = middles_of(model.views(), poses.pairs);
+  const std::vector<Vec3d> middles = middles_of(model.views(), poses.pairs, limits);
   poses.T_world_view.assign(model.views(), std::nullopt);
   poses.deviations.assign(model.views(), std::numeric_limits<double>::infinity());
   for (std::size_t view = 0; view < model.views(); ++view) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -62,16 +63,19 @@ class ViewCache {
   std::vector<std::unique_ptr<Entry>> entries_;  ///< the one asked for last comes last
 };
 
-/// Whether a pair says something of the poses of its views: it was accepted, or refused for nothing
-/// but that it leaves some direction open. What it says of the others holds, and its information
-/// has next to nothing of that one.
-bool counts_for_poses(const PairRegistration& pair);
-
 /// What makes a view's pose one to rely on.
 struct PlacementLimits {
-  double max_deviation = 4;       ///< of a pair from what the others say, in its deviations
-  double max_uncertainty = 0.02;  ///< of where what a view sees is, one standard deviation, m
+  double max_deviation = 4;  ///< of a pair from what the others say, in its deviations
+  /// Of where what a view sees is, one standard deviation, m. A long walk adds up many small ones.
+  double max_uncertainty = std::numeric_limits<double>::infinity();
+  /// Whether pairs count that were refused for nothing but that they leave some direction open.
+  /// What they say of the others holds, and their information has next to nothing of that one;
+  /// together they may leave none open, which max_uncertainty is to see to.
+  bool open_directions = false;
 };
+
+/// Whether a pair says something of the poses of its views.
+bool counts_for_poses(const PairRegistration& pair, const PlacementLimits& limits);
 
 /// Fits the poses to the pairs that count, and gives them to those views of the largest set that
 /// pairs join which are known well enough; says of the others why they have none.
