@@ -47,9 +47,9 @@ TEST(Program, SaysItsVersion) {
 }
 
 TEST(Program, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb :
-       {"reconstruct", "triangulate", "smooth", "simplify", "refine", "adapt", "progressive",
-        "extract", "verify", "convert", "measure", "simulate", "import", "reproduce", "list"}) {
+  for (const char* verb : {"reconstruct", "triangulate", "smooth", "simplify", "refine", "adapt",
+                           "progressive", "extract", "verify", "convert", "measure", "simulate",
+                           "import", "register", "repair", "reproduce", "list"}) {
     const Outcome outcome = burnish({verb, "--help"});
     EXPECT_EQ(outcome.status, 0) << verb;
     EXPECT_NE(outcome.out.find(std::string("burnish ") + verb), std::string::npos) << outcome.out;
@@ -491,6 +491,33 @@ TEST(Program, SeveralScansWithoutPosesAreRefusedWithWhatToGive) {
       burnish({"reconstruct", folder / "a.ply", folder / "b.ply", "-o", folder / "out.ply"});
   EXPECT_EQ(outcome.status, 2) << outcome.err;
   EXPECT_NE(outcome.err.find("--poses"), std::string::npos) << outcome.err;
+}
+
+TEST(Program, RegistersATurntableAndReconstructsFromWhatItFound) {
+  const TemporaryFolder folder;
+  const std::string shots = folder / "shots", posed = folder / "posed", out = folder / "out.ply";
+  ASSERT_EQ(burnish({"simulate", "teapot", "-o", shots, "--views", "12", "--rings", "1", "--size",
+                     "0.3m", "--axis_offset", "2cm", "--step_jitter", "1deg"})
+                .status,
+            0);
+  const Outcome found = burnish({"register", shots, "-o", posed, "--turntable"});
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_NE(found.out.find("12 of 12"), std::string::npos) << found.out;
+  EXPECT_TRUE(fs::exists(fs::path(posed) / "registration.json"));
+  const Outcome made = burnish(
+      {"reconstruct", shots, "--poses", posed + "/poses.txt", "-o", out, "--smooth", "none"});
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_TRUE(read_mesh(out));
+}
+
+TEST(Program, RegisterRefusesWhatItCannotPlace) {
+  const TemporaryFolder folder;
+  const std::string shots = folder / "shots", posed = folder / "posed";
+  ASSERT_EQ(burnish({"simulate", "sphere", "-o", shots, "--views", "6", "--rings", "1"}).status, 0);
+  const Outcome found = burnish({"register", shots, "-o", posed, "--turntable"});
+  EXPECT_EQ(found.status, 6) << found.out;
+  EXPECT_FALSE(fs::exists(fs::path(posed) / "poses.txt"));
+  EXPECT_EQ(burnish({"register", shots, "-o", posed, "--angle", "10deg"}).status, 2);
 }
 
 TEST(Program, RefinesAroundARegionAndSaysWhichVerticesAreNew) {

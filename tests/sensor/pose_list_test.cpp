@@ -51,6 +51,19 @@ TEST(PoseList, ReadsTumAndRedwood) {
   EXPECT_EQ(blocks->poses[1]({1, 0, 0}), (Vec3d{0, 1, 0}));
 }
 
+TEST(PoseList, SaysWhichPosesNobodyKnowsAndReadsWhatItWrites) {
+  const RigidTransform there = rigid_from_quaternion(0.1, -0.2, 0.3, 0.9, {1, -2.5, 1. / 3});
+  const std::vector<std::optional<RigidTransform>> poses{std::nullopt, there, std::nullopt};
+  const TextFile file(pose_list_text(poses, std::vector<std::string>{"too dark", "", ""}));
+  const auto list = read_pose_list(file.path());
+  ASSERT_TRUE(list) << list.error().text();
+  EXPECT_EQ(list->unknown, (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(list->poses[1].translation, there.translation);
+  EXPECT_LT(norm(list->poses[1]({1, 2, 3}) - there({1, 2, 3})), 1e-14);
+  EXPECT_FALSE(read_pose_list(TextFile("-\n-\n").path()));
+  EXPECT_FALSE(read_pose_list(TextFile("-\n0 0 0 0 0 0 0 1\n").path()));
+}
+
 struct Bad {
   const char* text;
   int line;
