@@ -33,7 +33,7 @@ Outcome outcome_of(test::FramePair pair, const Context& context = {}) {
 }
 
 TEST(Projective, FindsAndAcceptsGoodPairs) {
-  for (std::uint64_t i = 0; i < 8; ++i) {
+  for (std::uint64_t i = 0; i < 6; ++i) {
     const Outcome outcome = outcome_of(test::good_pair(i, kCoarseness));
     EXPECT_TRUE(outcome.found.accepted())
         << outcome.pair.kind << " " << i << ": " << outcome.found.reason;
