@@ -33,7 +33,7 @@ Outcome outcome_of(test::FramePair pair, const Context& context = {}) {
 }
 
 TEST(Projective, FindsAndAcceptsGoodPairs) {
-  for (std::uint64_t i = 0; i < 12; ++i) {
+  for (std::uint64_t i = 0; i < 6; ++i) {
     const Outcome outcome = outcome_of(test::good_pair(i, kCoarseness));
     EXPECT_TRUE(outcome.found.accepted())
         << outcome.pair.kind << " " << i << ": " << outcome.found.reason;
@@ -42,7 +42,7 @@ TEST(Projective, FindsAndAcceptsGoodPairs) {
 }
 
 TEST(Projective, RefusesBadPairs) {
-  for (std::uint64_t i = 0; i < 14; ++i) {
+  for (std::uint64_t i = 0; i < 7; ++i) {
     const Outcome outcome = outcome_of(test::bad_pair(i, kCoarseness));
     EXPECT_FALSE(outcome.found.accepted()) << outcome.pair.kind << " " << i;
     EXPECT_EQ(outcome.found.reason.empty(), outcome.found.accepted());

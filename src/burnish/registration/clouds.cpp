@@ -19,6 +19,7 @@ constexpr std::size_t kGrain = 256;
 constexpr double kThinning = 3;         // from level to level
 constexpr double kContradicts = 5;      // deviations
 constexpr double kBeside = 2;           // spacings that a counterpart may be off along the surface
+constexpr double kFlatness = 1e-3;      // of a point's neighbourhood: variance across over along
 constexpr double kFarOff = 8;           // spacings beyond which it is no counterpart at all
 constexpr double kWindowPoints = 30;    // that share the noise of their normals
 constexpr std::size_t kJudged = 20000;  // points that a verdict looks at
@@ -94,9 +95,9 @@ class Matcher {
  private:
   static Eigen::Matrix3d surface_covariance(const CloudSurface& surface, std::uint32_t i,
                                             const Vec3d& normal, double tolerance) {
-    const double extra = square(tolerance) / 2;
-    const double across = square(surface.sigma[i]) + square(surface.bias[i]) + extra;
-    const double along = std::max(across, square(surface.spacing[i]) + extra);
+    const double across =
+        square(surface.sigma[i]) + square(surface.bias[i]) + square(tolerance) / 2;
+    const double along = across / kFlatness;
     const Eigen::Vector3d n(normal.x, normal.y, normal.z);
     return along * Eigen::Matrix3d::Identity() + (across - along) * n * n.transpose();
   }

@@ -33,10 +33,9 @@ struct CloudsParams {
 /// where they were estimated without a viewpoint). With d = x - q, n the target's and m the
 /// source's normal, and Tukey's biweight of the residual:
 ///   point_to_plane  (n . d)^2 / (sigma_x^2 + sigma_q^2 + bias_x^2 + bias_q^2 + t^2)
-///   generalized     d^T (C_q + C_x)^-1 d, C = (sigma^2 + bias^2 + t^2 / 2) n n^T
-///                   + (spacing^2 + t^2 / 2) (1 - n n^T), Segal, Haehnel and Thrun 2009, eq. 2: a
-///                   point is known as well across its surface as the sensor has it, along it no
-///                   better than the next point is away.
+///   generalized     d^T (C_q + C_x)^-1 d, C = s^2 (n n^T + 1000 (1 - n n^T)) of either point, with
+///                   s^2 = sigma^2 + bias^2 + t^2 / 2 (Segal, Haehnel and Thrun 2009, eq. 2 and
+///                   section III.B): both lie in planes as thin as the sensor measures them
 /// sigma is the clouds' own (attributes.sigma), or what a point's neighbours scatter about their
 /// plane by. Robust weights, t and the way from coarse to fine are those of register_projective.
 ///

@@ -24,12 +24,12 @@ inline double tukey_weight(double squared) {
   return inside > 0 ? inside * inside : 0;
 }
 
-/// Whether a step is as good as none: on the finest level where it is a fifth of the deviation of
+/// Whether a step is as good as none: on the finest level where it is a tenth of the deviation of
 /// the pose, whose measurements share their noise among `noise_points`; on others where it changes
 /// the residuals by a hundredth of their tolerance, root mean square.
 inline bool is_still(const GaussNewtonStep& step, const NormalEquations& sums, bool finest,
                      double noise_points) {
-  return step.change < (finest ? 0.2 * std::sqrt(noise_points / sums.weight) : 1e-2);
+  return step.change < (finest ? 0.1 * std::sqrt(noise_points / sums.weight) : 1e-2);
 }
 
 }  // namespace burnish
