@@ -54,6 +54,7 @@ struct RecordingFormat {
                                              const ImportParams& params);
 };
 
+RecordingFormat azure_format();
 RecordingFormat fakenect_format();
 RecordingFormat pclzf_format();
 RecordingFormat klg_format();
