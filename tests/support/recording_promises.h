@@ -6,6 +6,7 @@
 
 #include "burnish/sensor/recording_azure.h"
 #include "burnish/sensor/recording_klg.h"
+#include "burnish/sensor/recording_oni.h"
 #include "burnish/sensor/recording_pclzf.h"
 
 namespace burnish::test {
@@ -40,6 +41,10 @@ inline void expect_klg_promises_kept(std::string_view bytes) {
 
 inline void expect_azure_promises_kept(std::string_view bytes) {
   expect_sound_frames(open_azure(bytes, "input", {}));
+}
+
+inline void expect_oni_promises_kept(std::string_view bytes) {
+  expect_sound_frames(open_oni(bytes, "input", {}));
 }
 
 inline void expect_pclzf_promises_kept(std::string_view bytes) {
