@@ -39,7 +39,7 @@ std::string depth_node(std::string_view codec = "16zT", std::uint64_t format = 1
 }
 
 std::string some_oni() {
-  return depth_node() + oni_node(2, 3, "JPEG", 1, kWidth, kHeight, 200) + test::oni_ready(1) +
+  return depth_node() + test::oni_ready(1) + oni_node(2, 3, "JPEG", 1, kWidth, kHeight, 200) +
          test::oni_ready(2) + test::oni_data_begin(2) +
          oni_data(1, 1000, 1, test::packed_16z(some_scene(0), true)) + oni_data(2, 1100, 1, kJpeg) +
          oni_data(1, 34000, 2, test::packed_16z(some_scene(1), true));

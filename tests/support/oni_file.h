@@ -114,8 +114,9 @@ inline std::string oni_ready(std::uint32_t node) {
   return oni_record(0x09, node, {});
 }
 
+/// Where the properties of node 1 end and images begin.
 inline std::string oni_data_begin(std::uint32_t frames) {
-  return oni_record(0x08, 0, oni_number(frames) + oni_number(std::uint64_t{1000000}));
+  return oni_record(0x08, 1, oni_number(frames) + oni_number(std::uint64_t{1000000}));
 }
 
 inline std::string oni_data(std::uint32_t node, std::uint64_t microseconds, std::uint32_t frame,
