@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "burnish/sensor/recording_azure.h"
 #include "burnish/sensor/recording_klg.h"
+#include "burnish/sensor/recording_oni.h"
 #include "burnish/sensor/recording_pclzf.h"
 
 namespace burnish::test {
@@ -18,12 +20,11 @@ inline void require(bool condition, const char* what) {
 
 inline void expect_error_with_place(const Error& error) {
   require(!error.message.empty(), "an error has a message");
-  require(error.where.starts_with("input, byte "), "an error names the file and the place");
+  require(error.where.starts_with("input, "), "an error names the file and the place");
 }
 
-/// What both readers promise, whatever the bytes are: sound images, or an error with its place.
-inline void expect_klg_promises_kept(std::string_view bytes) {
-  const auto recording = open_klg(bytes, "input");
+/// What all readers promise, whatever the bytes are: sound images, or an error with its place.
+inline void expect_sound_frames(const Result<std::unique_ptr<Recording>>& recording) {
   if (!recording) return expect_error_with_place(recording.error());
   require((*recording)->size() > 0, "a recording has frames");
   for (std::size_t i = 0; i < std::min<std::size_t>((*recording)->size(), 4); ++i) {
@@ -32,6 +33,18 @@ inline void expect_klg_promises_kept(std::string_view bytes) {
     require(frame->depth.size() == std::size_t{frame->width} * frame->height && frame->width > 0,
             "a frame has all its pixels");
   }
+}
+
+inline void expect_klg_promises_kept(std::string_view bytes) {
+  expect_sound_frames(open_klg(bytes, "input"));
+}
+
+inline void expect_azure_promises_kept(std::string_view bytes) {
+  expect_sound_frames(open_azure(bytes, "input", {}));
+}
+
+inline void expect_oni_promises_kept(std::string_view bytes) {
+  expect_sound_frames(open_oni(bytes, "input", {}));
 }
 
 inline void expect_pclzf_promises_kept(std::string_view bytes) {

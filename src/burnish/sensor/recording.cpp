@@ -167,8 +167,9 @@ Facts ImportReport::facts() const {
 }
 
 const std::vector<RecordingFormat>& recording_formats() {
-  static const std::vector<RecordingFormat> all{pclzf_format(), klg_format(), fakenect_format(),
-                                                tum_format(), images_format()};
+  static const std::vector<RecordingFormat> all{oni_format(),   azure_format(),    pclzf_format(),
+                                                klg_format(),   fakenect_format(), tum_format(),
+                                                images_format()};
   return all;
 }
 

@@ -54,6 +54,8 @@ struct RecordingFormat {
                                              const ImportParams& params);
 };
 
+RecordingFormat oni_format();
+RecordingFormat azure_format();
 RecordingFormat fakenect_format();
 RecordingFormat pclzf_format();
 RecordingFormat klg_format();
