@@ -213,6 +213,7 @@ int main(int argc, char** argv) {
   const int pairs = argc > 1 ? std::atoi(argv[1]) : 200;
   const int compared = argc > 2 ? std::atoi(argv[2]) : 40;
   if (pairs < 0 || compared < 0) return 2;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   if (pairs > 0) {
     judge_pairs(pairs, true);
     judge_pairs(pairs, false);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "burnish/core/transform.h"
@@ -23,6 +25,16 @@ double error_of(const PairRegistration& pair, const RigidTransform& truth) {
     worst = std::max(worst, norm(pair.T_target_source(p) - truth(p)));
   }
   return worst;
+}
+
+double squared_error(const Matrix6& information, const Twist& twist) {
+  const Vec3d &r = twist.rotation, &t = twist.translation;
+  const std::array<double, 6> e{r.x, r.y, r.z, t.x, t.y, t.z};
+  double sum = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) sum += e[i] * information[i][j] * e[j];
+  }
+  return sum;
 }
 
 TEST(Clouds, BothErrorsFindThePose) {
@@ -58,9 +70,10 @@ TEST(Clouds, PosesAreBetweenWorlds) {
   const RigidTransform back = here.inverse() * far.T_target_source * there;
   EXPECT_LT(error_of(near, back), 1e-9);
   EXPECT_NEAR(far.weakest.deviation, near.weakest.deviation, 1e-9);
-  // Of a translation the covariance does not depend on where the origin is, once turns are left
-  // out.
-  EXPECT_NEAR(far.information[3][3], near.information[3][3], 1e-6 * near.information[3][3]);
+  // A turn about the far world's origin is one about the near world's and a way besides.
+  const Vec3d turn{0.3, -0.5, 0.2}, way = cross(turn, target.frame.origin);
+  const double expected = squared_error(near.information, {turn, way});
+  EXPECT_NEAR(squared_error(far.information, {turn, {}}), expected, 1e-6 * expected);
 }
 
 TEST(Clouds, FoundWithoutAGuess) {

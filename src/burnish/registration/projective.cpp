@@ -128,7 +128,6 @@ class Witness {
  public:
   Witness(const SurfaceView& source, const SurfaceView& target, const RigidTransform& T)
       : source_(source),
-        target_(target),
         projector_(target, T),
         normal_pixels_(std::max(source.normal_pixels, target.normal_pixels)),
         noise_pixels_(shared_noise()),
@@ -185,7 +184,6 @@ class Witness {
   }
 
   const SurfaceView& source_;
-  const SurfaceView& target_;
   Projector projector_;
   double normal_pixels_, noise_pixels_, bias_pixels_;
 };
