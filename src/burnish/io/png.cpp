@@ -62,7 +62,6 @@ struct Layout {
   int color_type, bit_depth;
   const std::byte* rows;
   std::size_t row_bytes;
-  bool fast = false;             ///< for pictures: a third of the time for about the same size
   bool leave_out_alpha = false;  ///< rows have four bytes a pixel, of which three are written
 };
 
@@ -71,10 +70,9 @@ bool encode(png_structp png, png_infop info, Session& to, const Layout& image) {
   png_set_write_fn(png, &to, append, flush);
   png_set_IHDR(png, info, image.width, image.height, image.bit_depth, image.color_type,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  if (image.fast) {
-    png_set_compression_level(png, 3);
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
-  }
+  // A third of the time of libpng's own choices; pictures are about as large, depth 15 % larger.
+  png_set_compression_level(png, 3);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
   png_write_info(png, info);
   if (image.bit_depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
   if (image.leave_out_alpha) png_set_filler(png, 0, PNG_FILLER_AFTER);
@@ -182,7 +180,7 @@ Result<std::string> encode_png(std::uint32_t width, std::uint32_t height,
   const bool opaque =
       std::all_of(pixels.begin(), pixels.end(), [](const Color& c) { return c[3] == 255; });
   return encode({width, height, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA, 8,
-                 std::as_bytes(pixels).data(), width * sizeof(Color), true, opaque},
+                 std::as_bytes(pixels).data(), width * sizeof(Color), opaque},
                 pixels.size());
 }
 
