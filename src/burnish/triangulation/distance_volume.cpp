@@ -292,7 +292,7 @@ DistanceVolume::Voxel DistanceVolume::read(const VoxelBlock& block, std::size_t 
                                            std::uint32_t min_observations) {
   Voxel voxel;
   voxel.observations = static_cast<std::uint32_t>(block.sums[i] & kMostFrames);
-  if (voxel.observations >= min_observations && voxel.observations >= block.seen_free[i]) {
+  if (voxel.observations >= min_observations && voxel.observations > block.seen_free[i]) {
     const std::int64_t sum = block.sums[i] >> 16;
     voxel.state = Voxel::State::measured;
     voxel.distance =

@@ -22,7 +22,7 @@ namespace burnish {
 /// may touch in a vertex. Attributes: normals (of the triangles around, by area), observations (the
 /// fewest frames that measured a voxel of a crossing), origin (seen; interpolated where a voxel in
 /// front was empty and not measured), and sigma: 1 / sqrt of the mean weight, times what averaging
-/// four neighbouring patches of pixels leaves of noise correlated as core/noise_correlation.h says.
+/// neighbouring patches of pixels leaves of noise correlated as core/noise_correlation.h says.
 /// No noise: sums keep the deviation across the surface and not how it lies to the rays.
 ///
 /// In the order of the blocks' places; the same bytes for any number of threads. Errors: cancelled.
