@@ -67,6 +67,7 @@ bool DepthPlanes::build(const DepthFrame& frame, const Measure& measure, const C
   pixels.width = camera_.width, pixels.height = camera_.height;
   pixels.share = frame.sigma_share.empty() ? frame.noise_share : frame.sigma_share;
   pixels.inverse.resize(frame.depth.size());
+  pixels.planes.resize(frame.depth.size());
   for (std::size_t i = 0; i < frame.depth.size(); ++i) {
     const float z = frame.depth[i];
     pixels.inverse[i] = z > 0 && z >= noise_.min_depth && z <= farthest ? 1 / z : 0;
@@ -90,11 +91,10 @@ bool DepthPlanes::build(const DepthFrame& frame, const Measure& measure, const C
     if (!for_rows(context.part(done / 2, (done + 1. / kLevels) / 2), level, &DepthPlanes::average))
       return false;
   }
-  for (std::size_t level = 1; level <= kLevels; ++level) {
-    const double done = static_cast<double>(level - 1) / kLevels;
-    if (!for_rows(context.part((1 + done) / 2, (1 + done + 1. / kLevels) / 2), level,
-                  &DepthPlanes::fit))
-      return false;
+  for (std::size_t done = 0; done <= kLevels; ++done) {
+    const double share = 1.0 / (kLevels + 1), begin = static_cast<double>(done) * share;
+    const Context part = context.part((1 + begin) / 2, (1 + begin + share) / 2);
+    if (!for_rows(part, kLevels - done, &DepthPlanes::fit)) return false;
   }
   return true;
 }
@@ -167,6 +167,14 @@ void DepthPlanes::fit(std::size_t level, std::size_t row) {
   for (std::size_t x = 0; x < here.width; ++x) {
     const std::size_t i = row * here.width + x;
     here.planes[i].weight = 0;
+    if (level == 0) {
+      const Level& pairs = levels_[1];
+      if (!(pairs.planes[row / 2 * pairs.width + x / 2].weight > 0)) {
+        here.planes[i] =
+            pixel_plane(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(row));
+      }
+      continue;
+    }
     if (level > 1) {
       found = slope(level, x, row);
     } else if (x % 2 == 0) {

@@ -48,28 +48,24 @@ class DepthPlanes {
 
   /// What pixel (u, v) of the image sees: the plane of its patch of 2^level pixels or of the
   /// largest smaller one that there is. `is_edge` tells single pixels. Without a depth: weight 0.
-  DepthPlane at(int level, std::uint32_t u, std::uint32_t v, bool& is_edge) const {
-    is_edge = false;
-    for (; level > 0; --level) {
+  const DepthPlane& at(int level, std::uint32_t u, std::uint32_t v, bool& is_edge) const {
+    for (; level >= 0; --level) {
       const Level& patches = levels_[static_cast<std::size_t>(level)];
       const DepthPlane& plane = patches.planes[(v >> level) * patches.width + (u >> level)];
-      if (plane.weight > 0) return plane;
+      if (plane.weight > 0 || level == 0) {
+        is_edge = level == 0;
+        return plane;
+      }
     }
-    is_edge = true;
-    return pixel_plane(u, v);
-  }
-
-  /// Inverse depth of a pixel, 1/m; 0: none.
-  float inverse_depth(std::uint32_t u, std::uint32_t v) const {
-    return levels_[0].inverse[std::size_t{v} * camera_.width + u];
+    return levels_[0].planes[0];  // not reached
   }
 
  private:
   struct Level {
     std::size_t width = 0, height = 0;
-    std::vector<float> inverse;  ///< mean of 1 / z, 1/m; 0: none
-    std::vector<float> share;    ///< mean of the frame's sigma_share; empty: 1
-    std::vector<DepthPlane> planes;
+    std::vector<float> inverse;      ///< mean of 1 / z, 1/m; 0: none
+    std::vector<float> share;        ///< mean of the frame's sigma_share; empty: 1
+    std::vector<DepthPlane> planes;  ///< of pixels: only where there is no patch of 2 x 2
   };
   struct Slope {
     double u = 0, v = 0;

@@ -174,12 +174,11 @@ void DistanceVolume::gather_cell(const Sight& sight, std::size_t column, std::si
   }
 }
 
-/// Whether the frame may tell something of the block.
-bool DistanceVolume::in_sight(const Sight& sight, const BlockPlace& place) const {
+/// Whether the frame may tell something of a cube of side^3 voxels from `lowest` on (in voxels).
+bool DistanceVolume::in_sight(const Sight& sight, const Vec3d& lowest, int side) const {
   const Camera& camera = sight.camera;
-  const double middle = (kSide - 1) / 2.0, radius = std::sqrt(3.0) * middle * voxel_;
-  const Vec3d centre =
-      sight.T_camera_world((VoxelBlock::lowest(place) + Vec3d{middle, middle, middle}) * voxel_);
+  const double middle = (side - 1) / 2.0, radius = std::sqrt(3.0) * middle * voxel_;
+  const Vec3d centre = sight.T_camera_world((lowest + Vec3d{middle, middle, middle}) * voxel_);
   if (centre.z + radius <= 0) return false;
   const double nearest = centre.z - radius;
   if (nearest <= radius) return true;  // too near for a bound of what it covers
@@ -212,7 +211,7 @@ Result<void> DistanceVolume::integrate(const DepthFrame& frame, const Context& c
   std::vector<std::uint8_t> visible(blocks_.size());
   const auto look = [&](IndexRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      visible[i] = in_sight(sight, blocks_.places()[i]);
+      visible[i] = in_sight(sight, VoxelBlock::lowest(blocks_.places()[i]), kSide);
     }
   };
   if (!parallel_for(context.part(0.5, 0.6), visible.size(), look)) return cancelled();
@@ -229,28 +228,41 @@ Result<void> DistanceVolume::integrate(const DepthFrame& frame, const Context& c
                                                                     : Result<void>(cancelled());
 }
 
-/// Adds what the frame says of each voxel of a block.
+/// Adds what the frame says of each voxel of a block, octant by octant: most blocks are cut by the
+/// surface, and what lies behind it is the greater part of them.
 void DistanceVolume::update(const Sight& sight, const BlockPlace& place, VoxelBlock& block) const {
+  constexpr int kHalf = kSide / 2;
+  for (int octant = 0; octant < 8; ++octant) {
+    const Vec3<int> first{kHalf * (octant & 1), kHalf * (octant >> 1 & 1), kHalf * (octant >> 2)};
+    const Vec3d lowest = VoxelBlock::lowest(place) + Vec3d(first);
+    if (in_sight(sight, lowest, kHalf)) update_cube<kHalf>(sight, lowest, first, block);
+  }
+}
+
+/// The same for side^3 voxels of the block from `first` on, which lies at `lowest` in voxels.
+template <int side>
+void DistanceVolume::update_cube(const Sight& sight, const Vec3d& lowest, const Vec3<int>& first,
+                                 VoxelBlock& block) const {
   const Camera& camera = sight.camera;
-  const Vec3d base = sight.T_camera_world(VoxelBlock::lowest(place) * voxel_);
+  const Vec3d base = sight.T_camera_world(lowest * voxel_);
   const auto axis = [&](std::size_t column) {
     Vec3d unit;
     unit[column] = voxel_;
     return sight.T_camera_world.rotate(unit);
   };
   const Vec3d dx = axis(0), dy = axis(1), dz = axis(2);
-  const Vec3d middle = base + (dx + dy + dz) * ((kSide - 1) / 2.0);
+  const Vec3d middle = base + (dx + dy + dz) * ((side - 1) / 2.0);
   const int level =
       middle.z > 0 ? DepthPlanes::level_for(camera.fx * voxel_ / middle.z) : DepthPlanes::kLevels;
   const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
   const auto cx = static_cast<float>(camera.cx + 0.5), cy = static_cast<float>(camera.cy + 0.5);
   const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
-  const auto voxel = static_cast<float>(voxel_);
   const Vec3f along(dx);
-  for (int row = 0; row < kSide * kSide; ++row) {
-    const Vec3f start(base + dy * (row % kSide) + dz * (row / kSide));
-    std::array<float, kSide> x, y, z, u, v;
-    for (int i = 0; i < kSide; ++i) {
+  for (int row = 0; row < side * side; ++row) {
+    const int j = row % side, k = row / side;
+    const Vec3f start(base + dy * j + dz * k);
+    std::array<float, side> x, y, z, u, v;
+    for (int i = 0; i < side; ++i) {
       const auto at = static_cast<std::size_t>(i);
       x[at] = start.x + static_cast<float>(i) * along.x;
       y[at] = start.y + static_cast<float>(i) * along.y;
@@ -259,33 +271,39 @@ void DistanceVolume::update(const Sight& sight, const BlockPlace& place, VoxelBl
       u[at] = fx * (x[at] * inverse) + cx;
       v[at] = fy * (y[at] * inverse) + cy;
     }
-    for (std::size_t i = 0; i < kSide; ++i) {
+    const auto row_begin =
+        static_cast<std::size_t>(((first.z + k) * kSide + first.y + j) * kSide + first.x);
+    for (std::size_t i = 0; i < side; ++i) {
       if (!(z[i] > 0 && u[i] >= 0 && u[i] < width && v[i] >= 0 && v[i] < height)) continue;
       bool is_edge = false;
-      const DepthPlane plane = planes_.at(level, static_cast<std::uint32_t>(u[i]),
-                                          static_cast<std::uint32_t>(v[i]), is_edge);
+      const DepthPlane& plane = planes_.at(level, static_cast<std::uint32_t>(u[i]),
+                                           static_cast<std::uint32_t>(v[i]), is_edge);
       if (!(plane.weight > 0)) continue;
       const float distance = plane.h - (plane.nx * x[i] + plane.ny * y[i] + plane.nz * z[i]);
       if (distance < -plane.reach) continue;
-      const std::size_t at = static_cast<std::size_t>(row) * kSide + i;
-      if (distance > plane.reach) {
-        if (!is_edge && block.seen_free[at] < kMostFrames) ++block.seen_free[at];
-        continue;
+      if (distance <= plane.reach) {
+        add(plane, distance, row_begin + i, block);
+      } else if (!is_edge && block.seen_free[row_begin + i] < kMostFrames) {
+        ++block.seen_free[row_begin + i];
       }
-      const float behind =
-          distance < -voxel ? (plane.reach + distance) / (plane.reach - voxel) : 1.0f;
-      const auto weight =
-          std::max(1u, static_cast<std::uint32_t>(plane.weight * behind * kWeightSteps + 0.5f));
-      if (weight > 0xffffffff - block.weights[at] ||
-          (block.sums[at] & kMostFrames) == kMostFrames) {
-        continue;  // full
-      }
-      const float scaled = distance / voxel * kDistanceSteps;
-      const auto steps = static_cast<std::int64_t>(scaled + (scaled < 0 ? -0.5f : 0.5f));
-      block.weights[at] += weight;
-      block.sums[at] += steps * weight * (std::int64_t{kMostFrames} + 1) + 1;
     }
   }
+}
+
+/// Adds that a voxel lies `distance` in front of a plane.
+void DistanceVolume::add(const DepthPlane& plane, float distance, std::size_t i,
+                         VoxelBlock& block) const {
+  const auto voxel = static_cast<float>(voxel_);
+  const float behind = distance < -voxel ? (plane.reach + distance) / (plane.reach - voxel) : 1.0f;
+  const auto weight =
+      std::max(1u, static_cast<std::uint32_t>(plane.weight * behind * kWeightSteps + 0.5f));
+  const bool full =
+      weight > 0xffffffff - block.weights[i] || (block.sums[i] & kMostFrames) == kMostFrames;
+  if (full) return;
+  const float scaled = distance / voxel * kDistanceSteps;
+  const auto steps = static_cast<std::int64_t>(scaled + (scaled < 0 ? -0.5f : 0.5f));
+  block.weights[i] += weight;
+  block.sums[i] += steps * weight * (std::int64_t{kMostFrames} + 1) + 1;
 }
 
 DistanceVolume::Voxel DistanceVolume::read(const VoxelBlock& block, std::size_t i,

@@ -73,8 +73,12 @@ class DistanceVolume {
   Result<void> see(const DepthFrame& frame, const Context& context);
   void gather_cell(const Sight& sight, std::size_t column, std::size_t row,
                    std::vector<BlockPlace>& missing);
-  bool in_sight(const Sight& sight, const BlockPlace& place) const;
+  bool in_sight(const Sight& sight, const Vec3d& lowest, int side) const;
   void update(const Sight& sight, const BlockPlace& place, VoxelBlock& block) const;
+  template <int side>
+  void update_cube(const Sight& sight, const Vec3d& lowest, const Vec3<int>& first,
+                   VoxelBlock& block) const;
+  void add(const DepthPlane& plane, float distance, std::size_t i, VoxelBlock& block) const;
 
   double voxel_;
   Truncation truncation_;
