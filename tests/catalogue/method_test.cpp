@@ -54,9 +54,10 @@ TEST(Catalogue, ListsEveryFamily) {
   for (const auto family : families()) operations += operations_of(family).size();
   EXPECT_EQ(operations, average_operations().size() + filter_operations().size() +
                             clean_operations().size() + merge_operations().size() +
-                            thin_operations().size() + triangulate_operations().size() +
-                            repair_operations().size() + smooth_operations().size() +
-                            simplify_operations().size() + refine_operations().size());
+                            fuse_operations().size() + thin_operations().size() +
+                            triangulate_operations().size() + repair_operations().size() +
+                            smooth_operations().size() + simplify_operations().size() +
+                            refine_operations().size());
   EXPECT_TRUE(operations_of("bake").empty());
 }
 

@@ -26,6 +26,8 @@ std::span<const Exception> exceptions() {
       {"refine/split", "rotated", "edges of nearly one length may change places in the order"},
       {"merge/cells", "turned by a quarter", "its cells are columns along the axes"},
       {"merge/cells", "rotated", "its cells are columns along the axes"},
+      {"fuse/volume", "turned by a quarter", "vertices come in an order along the axes"},
+      {"fuse/volume", "rotated", "its voxels lie along the axes"},
   };
   return table;
 }
@@ -50,6 +52,7 @@ std::string_view exception(std::string_view operation, std::string_view property
 
 Companion companion(std::string_view operation, std::string_view field) {
   static const std::vector<Companion> table{
+      {"fuse/volume", "truncation_sigmas", {{"voxel", "0.002"}}, {}},
       {"thin/fan_cloud", "distance_weight", {{"noise_sigmas", "0"}}, {}},
       {"repair/manifold", "keep_solids", {}, touch_in_an_edge},
       {"triangulate/fan_cloud",

@@ -72,6 +72,19 @@ Subject subject_of(const MergeOperation& operation) {
           operation.resolve};
 }
 
+Subject subject_of(const FuseOperation& operation) {
+  return {"fuse",
+          operation.info,
+          {{}, {}, sample_frames()},
+          [&operation](Workpiece& input, const Settings& settings,
+                       const Context& context) -> Result<Outcome> {
+            auto created = operation.run(FramesInMemory(input.frames), settings, context);
+            if (!created) return created.error();
+            return Outcome{{{}, created->value}, created->facts};
+          },
+          operation.resolve};
+}
+
 Subject subject_of(const TriangulateOperation& operation) {
   return {"triangulate",
           operation.info,
@@ -135,6 +148,7 @@ const std::vector<Subject>& subjects() {
     for (const auto& operation : clean_operations())
       result.push_back(subject_of("clean", operation, sample_clouds().front()));
     for (const auto& operation : merge_operations()) result.push_back(subject_of(operation));
+    for (const auto& operation : fuse_operations()) result.push_back(subject_of(operation));
     for (const auto& operation : thin_operations()) {
       result.push_back(subject_of("thin", operation, quarter_of(sample_clouds().front())));
     }

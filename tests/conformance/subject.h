@@ -17,7 +17,9 @@ struct Subject {
   std::function<Result<Settings>(const Settings&)> resolve;
 
   std::string name() const { return family + "/" + info.name; }
-  bool takes_frames() const { return family == "average" || family == "filter"; }
+  bool takes_frames() const {
+    return family == "average" || family == "filter" || family == "fuse";
+  }
   bool takes_mesh() const {
     return family == "repair" || family == "smooth" || family == "simplify" || family == "refine";
   }

@@ -80,6 +80,40 @@ TEST(Reconstruct, RecordsEveryStepWithEveryParameter) {
             "repair small_components, smooth auto, ");
 }
 
+TEST(Reconstruct, FusesFramesInAVolume) {
+  const test::TemporaryFolder folder;
+  const auto sensor = find_sensor("kinect_v1");
+  const TriangleMesh model = make_sphere(0.15, 4);
+  ASSERT_TRUE(simulate_turntable(model, *sensor, {.views = 6}, folder / "scan"));
+  Recipe recipe;
+  recipe.merge = {"volume", {{"voxel", "4mm"}}};
+  const auto made =
+      made_from({folder / "scan"}, {}, recipe, {.truth = folder / "scan" / "truth" / "model.ply"});
+  expect_sound(made, 5000);
+  std::string verbs;
+  for (const Step& step : made->record.steps) {
+    verbs += step.verb + " " + step.method + ", ";
+    EXPECT_EQ(step.settings.size(), step.fields.size()) << step.method;
+  }
+  EXPECT_EQ(
+      verbs,
+      "read scans, clean flying_pixels, merge volume, repair small_components, smooth auto, ");
+  const auto& comparisons = made->record.comparisons;
+  EXPECT_LE(fact(comparisons.back().second, "vertices_rms"),
+            0.5 * fact(comparisons.front().second, "rms"));
+
+  recipe.triangulate = {"global", {}};
+  const auto twice = made_from({folder / "scan"}, {}, recipe);
+  ASSERT_FALSE(twice);
+  EXPECT_EQ(twice.error().code, ErrorCode::invalid_argument);
+
+  recipe.triangulate = {};
+  ASSERT_TRUE(write_mesh(folder / "cloud.ply", model));
+  const auto of_clouds = made_from({folder / "cloud.ply"}, {}, recipe);
+  ASSERT_FALSE(of_clouds);
+  EXPECT_EQ(of_clouds.error().code, ErrorCode::invalid_argument) << of_clouds.error().text();
+}
+
 TEST(Reconstruct, SimplifiesLastAndKeepsThePhases) {
   const test::TemporaryFolder folder;
   const auto sensor = find_sensor("kinect_v1");

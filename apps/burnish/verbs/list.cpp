@@ -11,7 +11,7 @@ Action add_list(CLI::App& app) {
   auto family = std::make_shared<std::string>();
   verb->add_option(
       "FAMILY", *family,
-      "one of average, filter, clean, merge, thin, triangulate, repair, smooth, simplify, "
+      "one of average, filter, clean, merge, fuse, thin, triangulate, repair, smooth, simplify, "
       "refine; all where left out");
   verb->footer("Example:\n  burnish list smooth");
   return [family](const Session&, const Context&) -> Result<void> {

@@ -132,7 +132,9 @@ Action add_reconstruct(CLI::App& app) {
       ->capture_default_str();
   add_method(verb, "--filter", options->filter, "filter", "filter each depth frame");
   add_method(verb, "--clean", options->clean, "clean", "clean each organized scan; none: do not");
-  add_method(verb, "--merge", options->merge, "merge", "merge several scans")
+  add_method(verb, "--merge", options->merge, "merge",
+             "merge several scans; volume makes the surface of depth frames at once, with "
+             "signed distances in a grid (burnish list fuse)")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   add_method(verb, "--clean_merged", options->clean_merged, "clean",
              "clean the merged cloud; none: do not");

@@ -28,9 +28,9 @@ std::vector<OperationInfo> infos(std::span<const Op> list) {
 }  // namespace
 
 std::span<const std::string_view> families() {
-  static constexpr std::string_view kFamilies[] = {"average",  "filter",      "clean",  "merge",
-                                                   "thin",     "triangulate", "repair", "smooth",
-                                                   "simplify", "refine"};
+  static constexpr std::string_view kFamilies[] = {"average", "filter",   "clean",       "merge",
+                                                   "fuse",    "thin",     "triangulate", "repair",
+                                                   "smooth",  "simplify", "refine"};
   return kFamilies;
 }
 
@@ -39,6 +39,7 @@ std::vector<OperationInfo> operations_of(std::string_view family) {
   if (family == "filter") return infos(filter_operations());
   if (family == "clean") return infos(clean_operations());
   if (family == "merge") return infos(merge_operations());
+  if (family == "fuse") return infos(fuse_operations());
   if (family == "thin") return infos(thin_operations());
   if (family == "triangulate") return infos(triangulate_operations());
   if (family == "repair") return infos(repair_operations());
@@ -59,6 +60,9 @@ Result<const CleanOperation*> find_clean(std::string_view name) {
 }
 Result<const MergeOperation*> find_merge(std::string_view name) {
   return find_in(merge_operations(), "merge", name);
+}
+Result<const FuseOperation*> find_fuse(std::string_view name) {
+  return find_in(fuse_operations(), "fuse", name);
 }
 Result<const ThinOperation*> find_thin(std::string_view name) {
   return find_in(thin_operations(), "thin", name);

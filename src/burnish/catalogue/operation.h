@@ -10,6 +10,7 @@
 #include "burnish/base/facts.h"
 #include "burnish/base/schema.h"
 #include "burnish/core/depth_frame.h"
+#include "burnish/core/frame_source.h"
 #include "burnish/core/point_cloud.h"
 #include "burnish/core/triangle_mesh.h"
 
@@ -45,6 +46,8 @@ using FilterOperation = Operation<Result<Facts>(DepthFrame&, const Settings&, co
 using CleanOperation = Operation<Result<Facts>(PointCloud&, const Settings&, const Context&)>;
 using MergeOperation = Operation<Result<Created<PointCloud>>(std::span<const PointCloud>,
                                                              const Settings&, const Context&)>;
+using FuseOperation =
+    Operation<Result<Created<TriangleMesh>>(const FrameSource&, const Settings&, const Context&)>;
 using ThinOperation = Operation<Result<Facts>(PointCloud&, const Settings&, const Context&)>;
 using TriangulateOperation =
     Operation<Result<Created<TriangleMesh>>(const PointCloud&, const Settings&, const Context&)>;

@@ -30,6 +30,7 @@
 #include "burnish/triangulation/delaunay.h"
 #include "burnish/triangulation/fan_cloud_mesh.h"
 #include "burnish/triangulation/fan_thinning.h"
+#include "burnish/triangulation/fuse_volume.h"
 #include "burnish/triangulation/global.h"
 #include "burnish/triangulation/organized.h"
 
@@ -68,6 +69,15 @@ std::span<const MergeOperation> merge_operations() {
       creation_operation("cells", merge_cells, &Merging::cloud,
                          "Points of one surface patch are averaged, weighted by their precision.",
                          ""),
+  };
+  return list;
+}
+
+std::span<const FuseOperation> fuse_operations() {
+  static const std::vector<FuseOperation> list{
+      creation_operation("volume", fuse_volume, &FusedVolume::mesh,
+                         "Where the weighted mean of all frames' distances to the surface is zero.",
+                         "curless_levoy_1996"),
   };
   return list;
 }

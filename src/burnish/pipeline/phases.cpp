@@ -185,6 +185,17 @@ Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method
   return create("merge", find_merge(method.name), clouds, method, record, context);
 }
 
+Result<TriangleMesh> fuse_frames(const FrameSource& frames, const Method& method, Record& record,
+                                 const Context& context) {
+  auto mesh = create("merge", find_fuse(method.name), frames, method, record, context);
+  if (mesh && mesh->triangles.empty()) {
+    return in_step(
+        "merge", method,
+        {ErrorCode::bad_geometry, fmt::format("no triangle came of {} frames", frames.size()), {}});
+  }
+  return mesh;
+}
+
 Result<void> thin_cloud(PointCloud& cloud, const std::vector<Method>& methods, Record& record,
                         const Context& context) {
   return edit("thin", cloud, methods, find_thin, record, context);

@@ -24,6 +24,10 @@ Result<void> clean_cloud(PointCloud& cloud, const std::vector<Method>& methods, 
 Result<PointCloud> merge_clouds(std::span<const PointCloud> clouds, const Method& method,
                                 Record& record, const Context& context);
 
+/// A mesh without a triangle is an error (bad_geometry).
+Result<TriangleMesh> fuse_frames(const FrameSource& frames, const Method& method, Record& record,
+                                 const Context& context);
+
 Result<void> thin_cloud(PointCloud& cloud, const std::vector<Method>& methods, Record& record,
                         const Context& context);
 

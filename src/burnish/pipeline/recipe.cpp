@@ -21,6 +21,10 @@ Result<void> check_methods(const std::vector<Method>& methods, Find find) {
 
 }  // namespace
 
+bool fuses(const Method& merge) {
+  return find_fuse(merge.name).has_value();
+}
+
 Result<NoiseBoundParams> parse_bound(std::string_view text) {
   const Result<Method> method = parse_method(text);
   if (!method) return method.error();
@@ -74,7 +78,18 @@ Result<void> check(const Recipe& recipe) {
                  {}};
   }
   if (auto ok = check_methods(recipe.clean_scan, find_clean); !ok) return ok;
-  if (auto ok = check_methods({recipe.merge}, find_merge); !ok) return ok;
+  if (fuses(recipe.merge)) {
+    if (auto ok = check_methods({recipe.merge}, find_fuse); !ok) return ok;
+    if (recipe.triangulate) {
+      return Error{ErrorCode::invalid_argument,
+                   fmt::format("{} gives a surface and leaves no cloud for {}: leave out one of "
+                               "the two",
+                               recipe.merge.name, recipe.triangulate->name),
+                   {}};
+    }
+  } else if (auto ok = check_methods({recipe.merge}, find_merge); !ok) {
+    return ok;
+  }
   if (auto ok = check_methods(recipe.clean_merged, find_clean); !ok) return ok;
   if (recipe.triangulate) {
     if (auto ok = check_methods({*recipe.triangulate}, find_triangulate); !ok) return ok;

@@ -21,8 +21,8 @@ struct Recipe {
   FrameSteps frames;           ///< depth frames, where the input is such
   std::optional<Region> crop;  ///< world coordinates; the rest is thrown away
   std::vector<Method> clean_scan{{"flying_pixels", {}}};  ///< each scan, where it is organized
-  Method merge{"cells", {}};                              ///< several scans
-  std::vector<Method> clean_merged{{"outliers", {}}};     ///< the merged cloud
+  Method merge{"cells", {}};  ///< several scans; a method to fuse gives the surface, too
+  std::vector<Method> clean_merged{{"outliers", {}}};  ///< the merged cloud
   std::optional<Method> triangulate;  ///< none: organized for one organized scan, else global
   std::vector<Method> repair{{"small_components", {}}};
   std::vector<Method> smooth{{"auto", {}}};  ///< phase by phase
@@ -31,14 +31,18 @@ struct Recipe {
   std::vector<Method> simplify{};
 };
 
+/// Whether a method makes a surface of frames at once, without a merged cloud.
+bool fuses(const Method& merge);
+
 /// What bounds a smoothing, as options and records call it.
 inline constexpr const char* kNoiseBound = "noise";
 
 /// Reads "noise" or "noise:c=2". Errors: invalid_argument.
 Result<NoiseBoundParams> parse_bound(std::string_view text);
 
-/// Whether every method is known and its parameters can be, smooth_region has something to confine,
-/// and a bound is not to hold vertices to depths that a filter has moved. Errors: invalid_argument.
+/// Whether every method is known and its parameters can be, no cloud is to be triangulated where
+/// there will be none, smooth_region has something to confine, and a bound is not to hold vertices
+/// to depths that a filter has moved. Errors: invalid_argument.
 Result<void> check(const Recipe& recipe);
 
 /// The same for a list of methods of one family alone.

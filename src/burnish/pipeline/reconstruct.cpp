@@ -2,82 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <limits>
-
 #include "burnish/io/geometry_file.h"
 #include "burnish/measure/truth.h"
 #include "burnish/pipeline/phases.h"
+#include "burnish/pipeline/scan_reader.h"
 
 namespace burnish {
 namespace {
-
-std::size_t count_points(const PointCloud& cloud) {
-  std::size_t count = 0;
-  for (const Vec3f& p : cloud.positions) count += is_finite(p);
-  return count;
-}
-
-/// Takes what is outside of `region` out of a cloud: missing pixels where it is organized.
-void crop(PointCloud& cloud, const Region& region) {
-  const auto inside = [&](const Vec3f& p) {
-    return contains(region, cloud.frame.origin + Vec3d(p));
-  };
-  if (cloud.grid) {
-    constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
-    for (Vec3f& p : cloud.positions) {
-      if (is_finite(p) && !inside(p)) p = {kMissing, kMissing, kMissing};
-    }
-    return;
-  }
-  std::vector<std::uint32_t> kept;
-  for (std::uint32_t i = 0; i < cloud.positions.size(); ++i) {
-    if (inside(cloud.positions[i])) kept.push_back(i);
-  }
-  cloud = select(cloud, kept);
-}
-
-/// The record's lines for all scans together: facts of the single ones added up, or what their
-/// names say of them.
-class SummedSteps {
- public:
-  void add(const std::vector<Step>& steps) {
-    if (totals_.empty()) {
-      totals_ = steps;
-    } else {
-      for (std::size_t k = 0; k < totals_.size(); ++k) add(totals_[k], steps[k]);
-    }
-    scans_ += 1;
-  }
-
-  void move_to(std::vector<Step>& steps) && {
-    for (Step& step : totals_) steps.push_back(std::move(step));
-  }
-
- private:
-  void add(Step& total, const Step& step) const {
-    total.seconds += step.seconds;
-    for (std::size_t i = 0; i < total.facts.size(); ++i) {
-      double& sum = total.facts[i].value;
-      const double value = step.facts[i].value;
-      const std::string& key = total.facts[i].key;
-      if (key.starts_with("max_")) {
-        sum = std::max(sum, value);
-      } else if (key.starts_with("mean_")) {
-        sum = (scans_ * sum + value) / (scans_ + 1);
-      } else if (key.starts_with("rms_")) {
-        sum = std::sqrt((scans_ * sum * sum + value * value) / (scans_ + 1));
-      } else {
-        sum += value;
-      }
-    }
-  }
-
-  std::vector<Step> totals_;
-  double scans_ = 0;
-};
 
 /// Compares raw points and phases with the true surface, where there is one.
 class Judge {
@@ -128,51 +59,15 @@ class Judge {
 };
 
 /// Reads and cleans every scan.
-Result<std::vector<PointCloud>> read_scans(const Scans& scans, const Recipe& recipe, Judge& judge,
-                                           Record& record, const Context& context) {
+Result<std::vector<PointCloud>> read_clouds(ScanReader& reader, const Context& context) {
   std::vector<PointCloud> clouds;
-  Step reading{"read", "scans", {}, {}, 0, {}};
-  SummedSteps on_frames, cleaning;
-  std::size_t points = 0;
-  const double count = static_cast<double>(scans.size());
-  for (std::size_t i = 0; i < scans.size(); ++i) {
+  const double count = static_cast<double>(reader.size());
+  for (std::size_t i = 0; i < reader.size(); ++i) {
     const double done = static_cast<double>(i);
-    const Context share = context.part(done / count, (done + 1) / count);
-    share.stage(fmt::format("reading scan {} of {}", i + 1, scans.size()));
-    const auto start = std::chrono::steady_clock::now();
-    Result<Scan> scan = scans.read(i, share.part(0, 0.5));
+    Result<Scan> scan = reader.read(i, context.part(done / count, (done + 1) / count));
     if (!scan) return std::move(scan).error();
-    record.notes.insert(record.notes.end(), scan->notes.begin(), scan->notes.end());
-    PointCloud& cloud = scan->cloud;
-    if (recipe.crop) {
-      crop(cloud, *recipe.crop);
-      if (scan->raw) crop(*scan->raw, *recipe.crop);
-    }
-    points += count_points(cloud);
-    reading.seconds +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (const Step& step : scan->steps) reading.seconds -= step.seconds;
-    on_frames.add(scan->steps);
-    judge.see_raw_points(scan->raw ? *scan->raw : cloud);
-    if (cloud.grid) {
-      Record single;
-      if (auto clean = clean_cloud(cloud, recipe.clean_scan, single, share.part(0.5, 1)); !clean) {
-        return clean.error();
-      }
-      cleaning.add(single.steps);
-    }
-    clouds.push_back(std::move(cloud));
+    clouds.push_back(std::move(scan->cloud));
   }
-  if (points == 0) {
-    return Error{
-        ErrorCode::bad_geometry,
-        recipe.crop ? "no point is left of the scans after cropping" : "the scans hold no point",
-        {}};
-  }
-  reading.facts = {{"scans", count, ""}, {"points", static_cast<double>(points), ""}};
-  record.steps.push_back(std::move(reading));
-  std::move(on_frames).move_to(record.steps);
-  std::move(cleaning).move_to(record.steps);
   return clouds;
 }
 
@@ -191,6 +86,31 @@ Result<PointCloud> merge_scans(std::vector<PointCloud> clouds, const Recipe& rec
   return merged;
 }
 
+/// The surface by way of one cloud that is triangulated.
+Result<TriangleMesh> surface_of_clouds(const Scans& scans, ScanReader reader, const Recipe& recipe,
+                                       Record& record, const Context& context) {
+  Result<std::vector<PointCloud>> clouds = read_clouds(reader, context.part(0, 0.35));
+  if (!clouds) return std::move(clouds).error();
+  if (auto read = reader.finish(record); !read) return read.error();
+  if (clouds->front().grid) record.viewpoint = scans.viewpoint();
+  const Result<PointCloud> cloud =
+      merge_scans(*std::move(clouds), recipe, record, context.part(0.35, 0.75));
+  if (!cloud) return cloud.error();
+  const Method by_default{cloud->grid ? "organized" : "global", {}};
+  return triangulate_cloud(*cloud, recipe.triangulate.value_or(by_default), record,
+                           context.part(0.75, 1));
+}
+
+/// The surface that frames see together.
+Result<TriangleMesh> surface_of_frames(const Scans& scans, ScanReader reader, const Recipe& recipe,
+                                       Record& record, const Context& context) {
+  const Result<ReadFrames> frames = ReadFrames::read_all(reader, context.part(0, 0.5));
+  if (!frames) return frames.error();
+  if (auto read = reader.finish(record); !read) return read.error();
+  record.viewpoint = scans.viewpoint();
+  return fuse_frames(*frames, recipe.merge, record, context.part(0.5, 1));
+}
+
 }  // namespace
 
 Result<Reconstruction> reconstruct(const ScanInputs& inputs, const Recipe& recipe,
@@ -205,17 +125,10 @@ Result<Reconstruction> reconstruct(const ScanInputs& inputs, const Recipe& recip
   record.notes.insert(record.notes.end(), (*scans)->notes().begin(), (*scans)->notes().end());
   record.steps.insert(record.steps.end(), (*scans)->steps().begin(), (*scans)->steps().end());
 
-  Result<std::vector<PointCloud>> clouds =
-      read_scans(**scans, recipe, *judge, record, context.part(0.12, 0.3));
-  if (!clouds) return std::move(clouds).error();
-  if (clouds->front().grid) record.viewpoint = (*scans)->viewpoint();
-  const Result<PointCloud> cloud =
-      merge_scans(*std::move(clouds), recipe, record, context.part(0.3, 0.6));
-  if (!cloud) return cloud.error();
-
-  const Method by_default{cloud->grid ? "organized" : "global", {}};
-  Result<TriangleMesh> mesh = triangulate_cloud(*cloud, recipe.triangulate.value_or(by_default),
-                                                record, context.part(0.6, 0.8));
+  ScanReader reader(**scans, recipe, [&](const PointCloud& raw) { judge->see_raw_points(raw); });
+  const auto surface_of = fuses(recipe.merge) ? surface_of_frames : surface_of_clouds;
+  Result<TriangleMesh> mesh =
+      surface_of(**scans, std::move(reader), recipe, record, context.part(0.12, 0.8));
   if (!mesh) return std::move(mesh).error();
   if (auto repaired = repair_mesh(*mesh, recipe.repair, record, context.part(0.8, 0.82));
       !repaired) {

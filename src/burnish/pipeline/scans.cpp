@@ -66,6 +66,7 @@ class FrameScans : public Scans {
     Result<PointCloud> cloud = unproject(*frame, {}, context.part(0.7, 1));
     if (!cloud) return std::move(cloud).error();
     scan.cloud = *std::move(cloud);
+    scan.frame = *std::move(frame);
     return scan;
   }
 

@@ -31,6 +31,8 @@ struct Scan {
   std::vector<std::string> notes;  ///< what their reader left out or changed
   std::vector<Step> steps;         ///< what was done to the frames that they are from
   std::optional<PointCloud> raw;   ///< positions as measured, where these steps may have moved them
+  std::optional<DepthFrame>
+      frame;  ///< whose pixels the points are, after the steps, where it is one
 };
 
 /// One or more scans.
