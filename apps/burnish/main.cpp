@@ -42,11 +42,11 @@ int run(int count, char** words) {
       "Example:\n  burnish reconstruct scan/ -o model.ply --report report.html\n"
       "Methods are written NAME[:key=value,...]; `burnish list` names them all.");
 
-  const std::vector<Action> actions{add_reconstruct(app), add_triangulate(app), add_smooth(app),
-                                    add_simplify(app),    add_refine(app),      add_adapt(app),
-                                    add_progressive(app), add_extract(app),     add_verify(app),
-                                    add_convert(app),     add_measure(app),     add_simulate(app),
-                                    add_reproduce(app),   add_list(app)};
+  const std::vector<Action> actions{add_reconstruct(app), add_triangulate(app), add_repair(app),
+                                    add_smooth(app),      add_simplify(app),    add_refine(app),
+                                    add_adapt(app),       add_progressive(app), add_extract(app),
+                                    add_verify(app),      add_convert(app),     add_measure(app),
+                                    add_simulate(app),    add_reproduce(app),   add_list(app)};
   try {
     app.parse(count, words);
   } catch (const CLI::Success& help) {

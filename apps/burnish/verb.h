@@ -32,6 +32,7 @@ using Action = std::function<Result<void>(const Session&, const Context&)>;
 /// Each adds one verb to the program and returns what it does.
 Action add_reconstruct(CLI::App& app);
 Action add_triangulate(CLI::App& app);
+Action add_repair(CLI::App& app);
 Action add_smooth(CLI::App& app);
 Action add_simplify(CLI::App& app);
 Action add_refine(CLI::App& app);

@@ -30,6 +30,17 @@ std::span<const Exception> exceptions() {
   return table;
 }
 
+namespace {
+
+/// Two wedges, each of two sheets, that share an edge and nothing else.
+void touch_in_an_edge(Workpiece& sample) {
+  sample.mesh = {};
+  sample.mesh.positions = {{0, 0, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 0}, {-1, 1, 0}, {-1, -1, 0}};
+  sample.mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 5}, {1, 0, 4}};
+}
+
+}  // namespace
+
 std::string_view exception(std::string_view operation, std::string_view property) {
   for (const Exception& entry : exceptions()) {
     if (entry.operation == operation && entry.property == property) return entry.reason;
@@ -40,6 +51,7 @@ std::string_view exception(std::string_view operation, std::string_view property
 Companion companion(std::string_view operation, std::string_view field) {
   static const std::vector<Companion> table{
       {"thin/fan_cloud", "distance_weight", {{"noise_sigmas", "0"}}, {}},
+      {"repair/manifold", "keep_solids", {}, touch_in_an_edge},
       {"triangulate/fan_cloud",
        "steep_angle",
        {},

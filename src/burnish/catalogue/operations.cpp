@@ -9,6 +9,7 @@
 #include "burnish/points/merge_cells.h"
 #include "burnish/points/remove_flying_pixels.h"
 #include "burnish/points/remove_outliers.h"
+#include "burnish/repair/manifold_cuts.h"
 #include "burnish/repair/small_components.h"
 #include "burnish/smoothing/automatic.h"
 #include "burnish/smoothing/bilateral.h"
@@ -101,6 +102,9 @@ std::span<const RepairOperation> repair_operations() {
   static const std::vector<RepairOperation> list{
       edit_operation("small_components", remove_small_components,
                      "Components too small to be anything but specks of noise go.", ""),
+      edit_operation("manifold", make_manifold,
+                     "Duplicate triangles go; the surface is cut where it is no manifold.",
+                     "gueziec_2001"),
   };
   return list;
 }
@@ -171,9 +175,10 @@ std::span<const RefineOperation> refine_operations() {
       edit_operation("loop", refine_loop,
                      "Every triangle becomes four, and the surface smoother: a box-spline's.",
                      "loop_1987"),
-      edit_operation("sqrt3", refine_sqrt3,
-                     "Every triangle becomes three, old edges are flipped, the surface is smoothed.",
-                     "kobbelt_2000"),
+      edit_operation(
+          "sqrt3", refine_sqrt3,
+          "Every triangle becomes three, old edges are flipped, the surface is smoothed.",
+          "kobbelt_2000"),
       edit_operation("midpoint", refine_midpoint,
                      "Every triangle becomes four by the middles of its edges; nothing moves.", ""),
       edit_operation("split", refine_split,

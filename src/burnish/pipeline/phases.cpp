@@ -109,6 +109,20 @@ class Phases {
   Record& record_;
 };
 
+/// Runs methods that edit a mesh, and keeps what comes of each.
+template <class Find>
+Result<void> edit_in_phases(std::string_view verb, TriangleMesh& mesh,
+                            const std::vector<Method>& methods, Find find, bool keep_phases,
+                            Record& record, const Context& context) {
+  Phases phases(mesh, keep_phases, record);
+  return run_all(
+      verb, methods, find, record, context,
+      [&mesh](const auto& operation, const Settings& settings, const Context& share) {
+        return operation.run(mesh, settings, share);
+      },
+      [&phases](std::size_t) { phases.keep_next(); });
+}
+
 /// The record's line on a region that an operation is confined to.
 Step confining(const Region& region, const std::vector<float>& weights, const char* vertices,
                const char* help) {
@@ -193,15 +207,14 @@ Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods,
   return edit("repair", mesh, methods, find_repair, record, context);
 }
 
+Result<void> repair_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                              bool keep_phases, Record& record, const Context& context) {
+  return edit_in_phases("repair", mesh, methods, find_repair, keep_phases, record, context);
+}
+
 Result<void> simplify_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
                                 bool keep_phases, Record& record, const Context& context) {
-  Phases phases(mesh, keep_phases, record);
-  return run_all(
-      "simplify", methods, find_simplify, record, context,
-      [&mesh](const SimplifyOperation& operation, const Settings& settings, const Context& share) {
-        return operation.run(mesh, settings, share);
-      },
-      [&phases](std::size_t) { phases.keep_next(); });
+  return edit_in_phases("simplify", mesh, methods, find_simplify, keep_phases, record, context);
 }
 
 Result<void> smooth_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,

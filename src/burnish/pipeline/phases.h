@@ -35,7 +35,9 @@ Result<void> repair_mesh(TriangleMesh& mesh, const std::vector<Method>& methods,
                          const Context& context);
 
 /// With `keep_phases` the record gets the mesh after each method, as the next phase, and where it
-/// has none yet first as it is now ("original").
+/// has none yet first as it is now ("original"). So with those below.
+Result<void> repair_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
+                              bool keep_phases, Record& record, const Context& context);
 Result<void> simplify_in_phases(TriangleMesh& mesh, const std::vector<Method>& methods,
                                 bool keep_phases, Record& record, const Context& context);
 

@@ -50,6 +50,10 @@ Result<void> check_refinement(const std::vector<Method>& methods) {
   return check_methods(methods, find_refine);
 }
 
+Result<void> check_repair(const std::vector<Method>& methods) {
+  return check_methods(methods, find_repair);
+}
+
 Result<void> check(const Recipe& recipe) {
   const FrameSteps& frames = recipe.frames;
   if (frames.average) {

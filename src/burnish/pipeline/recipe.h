@@ -46,5 +46,6 @@ Result<void> check_smoothing(const std::vector<Method>& methods);
 Result<void> check_simplification(const std::vector<Method>& methods);
 Result<void> check_thinning(const std::vector<Method>& methods);
 Result<void> check_refinement(const std::vector<Method>& methods);
+Result<void> check_repair(const std::vector<Method>& methods);
 
 }  // namespace burnish

@@ -25,9 +25,9 @@ struct RepairReport {
 };
 
 /// Removes the components (triangles joined across edges) that are too small to be anything but
-/// specks of noise, but never the largest, with the vertices that nothing uses then. Of components of equal size the one
-/// with the first triangle counts as larger. Order is kept. O(#V + #T log #T).
-/// Errors: invalid_argument, bad_geometry, cancelled; `mesh` is then unchanged.
+/// specks of noise, but never the largest, with the vertices that nothing uses then. Of components
+/// of equal size the one with the first triangle counts as larger. Order is kept. O(#V + #T log
+/// #T). Errors: invalid_argument, bad_geometry, cancelled; `mesh` is then unchanged.
 Result<RepairReport> remove_small_components(TriangleMesh& mesh,
                                              const SmallComponentsParams& params = {},
                                              const Context& context = {});
