@@ -15,7 +15,7 @@ constexpr int kSide = VoxelBlock::kSide;
 constexpr int kCellPixels = 8;
 constexpr float kWeightSteps = 256, kDistanceSteps = 256;
 constexpr double kMostReach = 60;  // voxels: the sums hold 64
-constexpr double kMargin = 1.5;    // voxels around what a pixel tells of that are to be there, too
+constexpr double kMargin = 1.0;    // voxels around what a pixel tells of that are to be there, too
 constexpr std::uint32_t kMostFrames = 0xffff;
 constexpr double kFarthestBlock = 1 << 30;
 
@@ -274,7 +274,10 @@ void DistanceVolume::update_cube(const Sight& sight, const Vec3d& lowest, const 
     const auto row_begin =
         static_cast<std::size_t>(((first.z + k) * kSide + first.y + j) * kSide + first.x);
     for (std::size_t i = 0; i < side; ++i) {
-      if (!(z[i] > 0 && u[i] >= 0 && u[i] < width && v[i] >= 0 && v[i] < height)) continue;
+      // Without a jump for each, which would be guessed wrongly at every outline.
+      const int is_inside =
+          int{z[i] > 0} & int{u[i] >= 0} & int{u[i] < width} & int{v[i] >= 0} & int{v[i] < height};
+      if (!is_inside) continue;
       bool is_edge = false;
       const DepthPlane& plane = planes_.at(level, static_cast<std::uint32_t>(u[i]),
                                            static_cast<std::uint32_t>(v[i]), is_edge);

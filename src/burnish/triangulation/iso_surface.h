@@ -7,7 +7,7 @@ namespace burnish {
 
 /// The surface on which a volume's distance is zero: a vertex for each loop in which the surface
 /// crosses the edges of a cube of eight voxels, two triangles for each edge that it crosses. This
-/// is the dual of marching cubes (Lorensen and Cline 1987; Nielson 2004): a third fewer vertices,
+/// is the dual of marching cubes (Lorensen and Cline 1987; Nielson 2004): fewer vertices,
 /// triangles of nearly one size instead of slivers, and each vertex is the mean of the crossings of
 /// its loop (Gibson 1998).
 ///
