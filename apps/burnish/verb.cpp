@@ -56,6 +56,19 @@ CLI::Option* add_method(CLI::App* verb, const std::string& name, std::vector<std
       ->description(help + fmt::format(" (burnish list {})", family));
 }
 
+void add_fields(CLI::App* verb, const std::vector<FieldInfo>& fields, Settings& settings) {
+  for (const FieldInfo& field : fields) {
+    verb->add_option_function<std::string>(
+            "--" + field.key,
+            [&settings, key = field.key](const std::string& text) {
+              settings.emplace_back(key, text);
+            },
+            fmt::format("{}; {}{}{}, default {}", field.help, field.range,
+                        field.unit.empty() ? "" : " ", field.unit, field.default_value))
+        ->type_name(field.type);
+  }
+}
+
 void add_bound(CLI::App* verb, std::string& bound) {
   const FieldInfo c = NoiseBoundParams::schema().fields().front();
   verb->add_option("--bound", bound,

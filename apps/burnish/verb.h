@@ -61,6 +61,10 @@ std::string methods_help(std::string_view family);
 CLI::Option* add_method(CLI::App* verb, const std::string& name, std::vector<std::string>& methods,
                         std::string_view family, const std::string& help);
 
+/// Adds an option --KEY for every field; what is given goes into `settings`, which must outlive the
+/// parsing.
+void add_fields(CLI::App* verb, const std::vector<FieldInfo>& fields, Settings& settings);
+
 /// Adds --bound to a verb that smooths.
 void add_bound(CLI::App* verb, std::string& bound);
 

@@ -1,28 +1,21 @@
 // Recordings in, as a user meets them.
+#include "app/program.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "support/subprocess.h"
 #include "support/test_data.h"
 
 namespace burnish {
 namespace {
 
 namespace fs = std::filesystem;
+using test::burnish;
+using test::bytes_of;
 using test::Outcome;
 using test::TemporaryFolder;
-
-Outcome burnish(std::vector<std::string> words, int interrupt_after_ms = 0) {
-  words.insert(words.begin(), BURNISH_PROGRAM);
-  return test::run_program(words, std::chrono::milliseconds(interrupt_after_ms));
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// A KLG of plain depth images, 640 x 480, of 1 m.
 void write_klg(const fs::path& path, std::int32_t frames) {

@@ -1,4 +1,6 @@
 // The program as a user meets it: exit statuses, messages, help, Ctrl-C, and the main job.
+#include "app/program.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -9,25 +11,16 @@
 #include "burnish/io/geometry_file.h"
 #include "burnish/shapes/shapes.h"
 #include "support/random_mesh.h"
-#include "support/subprocess.h"
 #include "support/test_data.h"
 
 namespace burnish {
 namespace {
 
 namespace fs = std::filesystem;
+using test::burnish;
+using test::bytes_of;
 using test::Outcome;
 using test::TemporaryFolder;
-
-Outcome burnish(std::vector<std::string> words, int interrupt_after_ms = 0) {
-  words.insert(words.begin(), BURNISH_PROGRAM);
-  return test::run_program(words, std::chrono::milliseconds(interrupt_after_ms));
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;

@@ -1,27 +1,20 @@
 // burnish progressive and burnish extract, as a user meets them.
+#include "app/program.h"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "burnish/io/geometry_file.h"
 #include "burnish/shapes/shapes.h"
-#include "support/subprocess.h"
 #include "support/test_data.h"
 
 namespace burnish {
 namespace {
 
 namespace fs = std::filesystem;
-
-test::Outcome burnish(std::vector<std::string> words, int interrupt_after_ms = 0) {
-  words.insert(words.begin(), BURNISH_PROGRAM);
-  return test::run_program(words, std::chrono::milliseconds(interrupt_after_ms));
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using test::burnish;
+using test::bytes_of;
 
 /// A folder with a sphere as a mesh and as a progressive file.
 class Progressive : public testing::Test {

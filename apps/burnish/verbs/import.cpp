@@ -49,16 +49,7 @@ Action add_import(CLI::App& app) {
                    "the folder to write; new, empty, or an earlier import")
       ->required();
   add_camera_options(verb, options->frames);
-  for (const FieldInfo& field : ImportParams::schema().fields()) {
-    verb->add_option_function<std::string>(
-            "--" + field.key,
-            [options, key = field.key](const std::string& text) {
-              options->settings.emplace_back(key, text);
-            },
-            fmt::format("{}; {}{}{}, default {}", field.help, field.range,
-                        field.unit.empty() ? "" : " ", field.unit, field.default_value))
-        ->type_name(field.type);
-  }
+  add_fields(verb, ImportParams::schema().fields(), options->settings);
   verb->footer(formats_help() +
                "Example:\n  burnish import rgbd_dataset_freiburg1_desk -o desk --every 10");
   return [options](const Session& s, const Context& c) { return import_frames(*options, s, c); };

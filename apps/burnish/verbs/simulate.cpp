@@ -58,16 +58,7 @@ Action add_simulate(CLI::App& app) {
       ->required();
   verb->add_option("--sensor", options->sensor, "which camera: " + sensor_names())
       ->capture_default_str();
-  for (const FieldInfo& field : TurntableParams::schema().fields()) {
-    verb->add_option_function<std::string>(
-            "--" + field.key,
-            [options, key = field.key](const std::string& text) {
-              options->settings.emplace_back(key, text);
-            },
-            fmt::format("{}; {}{}{}, default {}", field.help, field.range,
-                        field.unit.empty() ? "" : " ", field.unit, field.default_value))
-        ->type_name(field.type);
-  }
+  add_fields(verb, TurntableParams::schema().fields(), options->settings);
   verb->footer(
       "Example:\n  burnish simulate teapot -o scan --views 24 --sensor kinect_v1 --seed 1 "
       "--distance 0.8m");

@@ -77,8 +77,8 @@ class Extraction {
         surfaces_(order_.size()),
         rank_(order_.size()) {
     for (std::uint32_t i = 0; i < order_.size(); ++i) rank_[order_[i]] = i;
-    // The voxels around a vertex look through patches beside each other, or through the same one: as
-    // through one patch half as wide again. It is nearly the same share for 2 and 8 pixels.
+    // The voxels around a vertex look through patches beside each other, or through the same one:
+    // as through one patch half as wide again. It is nearly the same share for 2 and 8 pixels.
     vertex_share_ = variance_of_mean(6) / variance_of_mean(4);
   }
 
