@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "burnish/registration/global_start.h"
@@ -68,15 +69,16 @@ class Sequence {
       trials.push_back({earlier, T_world_view_[last]});
       trials.push_back({earlier, T_world_view_[earlier]});
     }
+    trials.push_back({key, std::nullopt});
+    std::optional<RegisteredPair> nearest;  // of the refused: it says what is against view i
     for (const Trial& trial : trials) {
-      auto pair =
-          lay(trial.target, i, T_world_view_[trial.target].inverse() * trial.T_world_view, context);
+      auto pair = lay(trial, i, context);
       if (!pair) return pair.error();
       if (pair->accepted()) return place(i, trial.target, *std::move(pair), context);
+      if (nearest && pair->matched <= nearest->registration.matched) continue;
+      nearest = {trial.target, i, *std::move(pair)};
     }
-    auto pair = lay_anyhow(key, i, context);
-    if (!pair) return pair.error();
-    if (pair->accepted()) return place(i, key, *std::move(pair), context);
+    poses_.pairs.push_back(*std::move(nearest));
     T_world_view_[i] = moved_on;
     return add_key(i, context);
   }
@@ -109,7 +111,7 @@ class Sequence {
  private:
   struct Trial {
     std::uint32_t target;
-    RigidTransform T_world_view;  ///< where the view may have been taken from
+    std::optional<RigidTransform> T_world_view;  ///< where the view may be; none: anywhere
   };
   struct Key {
     std::uint32_t view;
@@ -137,20 +139,22 @@ class Sequence {
     keys_.push_back({i, view.camera, glimpse_of(view)});
   }
 
+  Result<PairRegistration> lay(const Trial& trial, std::uint32_t source, const Context& context) {
+    if (trial.T_world_view) {
+      const RigidTransform T_target_world = T_world_view_[trial.target].inverse();
+      return lay(trial.target, source, T_target_world * *trial.T_world_view, context);
+    }
+    return with_both(trial.target, source, context,
+                     [&](const SurfaceView& to, const SurfaceView& from, const Context& quiet) {
+                       return register_views_globally(from, to, {}, params_.pairs, quiet);
+                     });
+  }
+
   Result<PairRegistration> lay(std::uint32_t target, std::uint32_t source,
                                const RigidTransform& guess, const Context& context) {
     return with_both(target, source, context,
                      [&](const SurfaceView& to, const SurfaceView& from, const Context& quiet) {
                        return register_projective(from, to, guess, params_.pairs, quiet);
-                     });
-  }
-
-  /// Without a guess.
-  Result<PairRegistration> lay_anyhow(std::uint32_t target, std::uint32_t source,
-                                      const Context& context) {
-    return with_both(target, source, context,
-                     [&](const SurfaceView& to, const SurfaceView& from, const Context& quiet) {
-                       return register_views_globally(from, to, {}, params_.pairs, quiet);
                      });
   }
 
