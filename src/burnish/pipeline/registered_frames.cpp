@@ -50,12 +50,12 @@ Result<RegisteredFrames> find_poses(const ViewSource& views, const FrameRegistra
 
 /// Why a view has no pose: what its best pair says against it.
 std::string reason_of(const ViewPoses& poses, std::size_t view) {
-  std::string reason = "nothing fits it";
-  std::size_t most = 0;
+  std::string reason = "nothing was laid on it";
+  std::optional<std::size_t> most;
   for (const RegisteredPair& pair : poses.pairs) {
     const bool of_view = pair.target == view || pair.source == view;
     const PairRegistration& r = pair.registration;
-    if (!of_view || r.accepted() || r.matched <= most) continue;
+    if (!of_view || r.accepted() || (most && r.matched <= *most)) continue;
     most = r.matched;
     reason =
         fmt::format("with frame {}: {}", pair.target == view ? pair.source : pair.target, r.reason);
