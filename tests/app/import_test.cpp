@@ -64,8 +64,8 @@ TEST(ImportVerb, SaysWhatItReadsAndRefusesWhatItDoesNot) {
 
 TEST(ImportVerb, InterruptLeavesNoHalfFolder) {
   const TemporaryFolder folder;
-  write_klg(folder / "log", 100);
-  const Outcome outcome = burnish({"import", folder / "log", "-o", folder / "out"}, 250);
+  write_klg(folder / "log", 150);  // about half a second's work
+  const Outcome outcome = burnish({"import", folder / "log", "-o", folder / "out"}, 60);
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_LT(outcome.seconds, 2.0);
   EXPECT_FALSE(fs::exists(folder / "out"));
